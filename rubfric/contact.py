@@ -1,0 +1,145 @@
+"""Frictionless unilateral contact of an elastic or viscoelastic surface with a rigid profile.
+
+Find the pressure p and the rigid offset d of a periodic surface with compliance C such that
+
+    gap = C p + d - s >= 0,    p >= 0,    p gap = 0,    mean(p) = nominal pressure.
+
+C is circulant: a convolution along the surface, given by its spectrum. Sliding viscoelastic surfaces have a
+C that is not symmetric, yet positive definite, so that the problem has one solution, and block principal
+pivoting (Judice and Pires 1994, Computers and Operations Research 21, 587) with single pivots as its
+fallback finds it after finitely many steps. Nothing is penalised.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from rubfric.errors import NotConverged
+
+Real = NDArray[np.float64]
+
+MOST_STEPS = 500
+# Block pivots in a row that may fail to reduce the violations before single pivots take over.
+_PATIENCE = 10
+# Violations below this share of the height scale, or of the pressure scale, are round-off.
+_ROUND_OFF = 1e-11
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A solved contact.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (n,)
+        Contact pressure at the surface nodes, MPa; positive on the contact, zero elsewhere.
+    gap : ndarray, shape (n,)
+        Height of the surface above the road, mm; zero on the contact.
+    offset : float
+        Rigid offset d, mm.
+    iterations : int
+        Pivoting steps; zero where full contact was recognised.
+    """
+
+    pressure: Real
+    gap: Real
+    offset: float
+    iterations: int
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Nodes in contact, shape (n,)."""
+        return self.pressure > 0.0
+
+
+def full_contact(compliance: NDArray[np.complex128], profile: Real, nominal: float) -> Contact | None:
+    """Return the contact that fills the whole road, or None where it would need to pull.
+
+    Parameters
+    ----------
+    compliance : ndarray of complex, shape (n // 2 + 1,)
+        Spectrum of C, mm/MPa; its entry 0 is not used.
+    profile : ndarray, shape (n,)
+        s, mm.
+    nominal : float
+        Nominal pressure, MPa.
+    """
+    spectrum = np.fft.rfft(profile)
+    held = np.zeros_like(spectrum)
+    # Harmonics that the road lacks need no pressure; their round-off would be amplified.
+    present = np.abs(spectrum) > 1e-13 * max(float(np.abs(spectrum).max()), 1e-300)
+    present[0] = False
+    held[present] = spectrum[present] / compliance[present]
+    pressure = nominal + np.fft.irfft(held, len(profile))
+    if pressure.min() < 0.0:
+        return None
+    return Contact(pressure, np.zeros_like(profile), float(spectrum[0].real) / len(profile), 0)
+
+
+def solve_contact(
+    compliance: NDArray[np.complex128],
+    profile: Real,
+    nominal: float,
+    start: NDArray[np.bool_],
+    label: str = "contact",
+) -> Contact:
+    """Solve the complementarity problem from a first guess of the contact.
+
+    Parameters
+    ----------
+    compliance, profile, nominal
+        As in ``full_contact``; the real part of the last entry of the spectrum counts where n is even.
+    start : ndarray of bool, shape (n,)
+        First guess, not empty; rather too large than too small.
+    label : str
+        Name that an error carries.
+
+    Raises
+    ------
+    NotConverged
+        After ``MOST_STEPS`` steps, with the number of nodes that still violate a condition.
+    """
+    nodes = len(profile)
+    kernel = np.fft.irfft(compliance, nodes)
+    height_scale = float(np.ptp(profile)) or 1.0
+    touching, best, patience = start.copy(), nodes + 1, _PATIENCE
+    for step in range(1, MOST_STEPS + 1):
+        inside = np.flatnonzero(touching)
+        pressure, offset = _equilibrium(kernel, profile, nominal, inside)
+        gap = np.fft.irfft(compliance * np.fft.rfft(pressure), nodes) + offset - profile
+        gap[inside] = 0.0
+        pulls = touching & (pressure < -_ROUND_OFF * np.abs(pressure).max())
+        pierces = ~touching & (gap < -_ROUND_OFF * height_scale)
+        violated = pulls | pierces
+        count = int(np.count_nonzero(violated))
+        if count == 0:
+            return Contact(np.maximum(pressure, 0.0), np.maximum(gap, 0.0), offset, step)
+        if count < best:
+            best, patience = count, _PATIENCE
+        elif patience:
+            patience -= 1
+        if patience:
+            touching ^= violated
+        else:
+            touching[np.flatnonzero(violated)[-1]] ^= True
+        if not touching.any():
+            touching[int(np.argmin(gap))] = True
+    raise NotConverged(label, MOST_STEPS, count, "number of surface nodes that violate contact")
+
+
+def _equilibrium(kernel: Real, profile: Real, nominal: float, inside: NDArray[np.int64]) -> tuple[Real, float]:
+    """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
+    nodes = len(profile)
+    lag = inside[:, None] - inside[None, :]
+    factors = lu_factor(kernel[lag], overwrite_a=True, check_finite=False)
+    sides = np.column_stack((profile[inside], np.ones(len(inside))))
+    held, unit = lu_solve(factors, sides, check_finite=False).T
+    # Pressures follow the road and the offset; the offset follows from the load.
+    offset = (held.sum() - nominal * nodes) / unit.sum()
+    pressure = np.zeros(nodes)
+    pressure[inside] = held - offset * unit
+    return pressure, float(offset)

@@ -1,0 +1,42 @@
+"""The project's exceptions: each is also the builtin that callers expect."""
+
+from __future__ import annotations
+
+
+class RubfricError(Exception):
+    """Base of every error that rubfric raises on purpose."""
+
+
+class InvalidInput(RubfricError, ValueError):
+    """A value that no model can take; the message names the key, the value and what is allowed."""
+
+
+class NotConverged(RubfricError, RuntimeError):
+    """A scene for which no solution was found; no result is written.
+
+    Parameters
+    ----------
+    scene : str
+        Canonical name of the scene, or what stands for it.
+    step : int
+        Iteration at which the solver gave up.
+    residual : float
+        What was left, in the measure named by ``measure``.
+    measure : str
+        What ``residual`` counts, with its unit.
+    """
+
+    def __init__(self, scene: str, step: int, residual: float, measure: str) -> None:
+        # All four go to Exception, so that the error survives pickling between processes.
+        super().__init__(scene, step, residual, measure)
+        self.scene = scene
+        self.step = step
+        self.residual = residual
+        self.measure = measure
+
+    def __str__(self) -> str:
+        return f"{self.scene}: not converged after {self.step} steps, {self.measure} is {self.residual:.3g}"
+
+
+class BrokenResult(RubfricError, OSError):
+    """A result file that cannot be read or lacks what every result holds."""

@@ -1,0 +1,210 @@
+"""Linear viscoelastic rubber: Prony series, complex moduli, and the conventions that give them meaning.
+
+The shear modulus relaxes as G(t) = G_inf + sum_i G_i exp(-t / tau_i) (Zhou, Wang and Wei 2019, Table 1), and
+
+    G*(w) = G_inf + sum_i G_i i w tau_i / (1 + i w tau_i).
+
+The bulk modulus is elastic (k_i = 0 of Table 1) or relaxes in proportion, at constant Poisson's ratio.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rubfric import checks
+from rubfric.errors import InvalidInput
+
+MODULI = ("long_term", "instantaneous")
+BULK = ("elastic", "proportional")
+PLANES = ("stress", "strain")
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Material:
+    """A rubber: elastic constants, Prony branches, and how to read them.
+
+    Parameters
+    ----------
+    name : str
+        Name of the rubber, as it stands in paths.
+    youngs_modulus : float
+        Young's modulus E, MPa; long-term or instantaneous as ``moduli`` says.
+    poissons_ratio : float
+        Poisson's ratio that goes with E, between -1 and 0.5.
+    shear_fractions : tuple of float
+        g_i, the branches' shares of the instantaneous shear modulus; none is legal. Sum below 1.
+    relaxation_times : tuple of float
+        tau_i, s, as many as there are fractions.
+    moduli : {"long_term", "instantaneous"}
+        Which modulus E is.
+    bulk : {"elastic", "proportional"}
+        Whether the bulk modulus is constant or relaxes as the shear modulus does.
+    density : float
+        Mass density, t/mm³; used only to report sliding speed over shear-wave speed.
+
+    Raises
+    ------
+    InvalidInput
+        For any value outside these bounds.
+    """
+
+    name: str
+    youngs_modulus: float
+    poissons_ratio: float
+    shear_fractions: tuple[float, ...]
+    relaxation_times: tuple[float, ...]
+    moduli: str = "long_term"
+    bulk: str = "elastic"
+    density: float = 1.1e-9
+
+    def __post_init__(self) -> None:
+        at = f"rubbers.{checks.text('name of the rubber', self.name)}."
+        put = object.__setattr__
+        put(self, "youngs_modulus", checks.positive(at + "youngs_modulus", self.youngs_modulus, "MPa"))
+        put(self, "poissons_ratio", checks.between(at + "poissons_ratio", self.poissons_ratio, -1.0, 0.5))
+        put(self, "shear_fractions", _positive_list(at + "shear_fractions", self.shear_fractions))
+        put(self, "relaxation_times", _positive_list(at + "relaxation_times", self.relaxation_times, "s"))
+        checks.one_of(at + "moduli", self.moduli, MODULI)
+        checks.one_of(at + "bulk", self.bulk, BULK)
+        put(self, "density", checks.positive(at + "density", self.density, "t/mm³"))
+        if len(self.shear_fractions) != len(self.relaxation_times):
+            raise InvalidInput(
+                f"{at}relaxation_times has {len(self.relaxation_times)} numbers, but must have as many "
+                f"as shear_fractions, {len(self.shear_fractions)}"
+            )
+        if sum(self.shear_fractions) >= 1.0:
+            raise InvalidInput(f"{at}shear_fractions add up to {sum(self.shear_fractions):g}, but must stay below 1")
+
+    @classmethod
+    def from_config(cls, name: str, entry: Any) -> Material:
+        """Read one entry of ``rubbers`` from a config; InvalidInput names what is wrong."""
+        required = ("youngs_modulus", "poissons_ratio", "shear_fractions", "relaxation_times")
+        keys = (*required, "moduli", "bulk", "density")
+        given: Mapping[str, Any] = checks.known_keys(f"rubbers.{name}", entry, keys, required)
+        return cls(name=name, **given)
+
+    @property
+    def long_term_fraction(self) -> float:
+        """g_inf = 1 - sum of g_i, the long-term share of the shear modulus."""
+        return 1.0 - sum(self.shear_fractions)
+
+    @property
+    def long_term_shear_modulus(self) -> float:
+        """G_inf, MPa."""
+        return self._shear_modulus * (1.0 if self.moduli == "long_term" else self.long_term_fraction)
+
+    @property
+    def instantaneous_shear_modulus(self) -> float:
+        """G_0, MPa."""
+        return self.long_term_shear_modulus / self.long_term_fraction
+
+    @property
+    def branch_shear_moduli(self) -> Real:
+        """G_i = g_i G_0, MPa, one for each branch."""
+        return np.asarray(self.shear_fractions, dtype=float) * self.instantaneous_shear_modulus
+
+    @property
+    def long_term_bulk_modulus(self) -> float:
+        """Bulk modulus at rest, MPa; the constant K where bulk is elastic."""
+        bulk = self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+        relaxes = self.bulk == "proportional" and self.moduli == "instantaneous"
+        return bulk * (self.long_term_fraction if relaxes else 1.0)
+
+    @property
+    def branch_bulk_moduli(self) -> Real:
+        """K_i, MPa, one for each branch; zeros where bulk is elastic."""
+        if self.bulk == "elastic":
+            return np.zeros(len(self.shear_fractions))
+        return self.branch_shear_moduli * (self.long_term_bulk_modulus / self.long_term_shear_modulus)
+
+    @property
+    def _shear_modulus(self) -> float:
+        return self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
+
+    def branch_transfer(self, frequency: ArrayLike) -> Complex:
+        """Return the share of the strain that each branch's spring carries, i w tau / (1 + i w tau).
+
+        Parameters
+        ----------
+        frequency : array_like, shape (...)
+            Angular frequency, rad/s.
+
+        Returns
+        -------
+        ndarray of complex, shape (branches, ...), dimensionless
+        """
+        turns = 1j * np.multiply.outer(np.asarray(self.relaxation_times), np.asarray(frequency, dtype=float))
+        return turns / (1.0 + turns)
+
+    def shear_relaxation(self, time: ArrayLike) -> Real:
+        """Return G(t), MPa, for times in s of any shape."""
+        decay = _decay(self.relaxation_times, time)
+        return self.long_term_shear_modulus + np.tensordot(self.branch_shear_moduli, decay, axes=1)
+
+    def bulk_relaxation(self, time: ArrayLike) -> Real:
+        """Return K(t), MPa, for times in s of any shape."""
+        decay = _decay(self.relaxation_times, time)
+        return self.long_term_bulk_modulus + np.tensordot(self.branch_bulk_moduli, decay, axes=1)
+
+    def complex_shear_modulus(self, frequency: ArrayLike) -> Complex:
+        """Return G*(w), MPa, for angular frequencies in rad/s of any shape."""
+        transfer = self.branch_transfer(frequency)
+        return self.long_term_shear_modulus + np.tensordot(self.branch_shear_moduli, transfer, axes=1)
+
+    def complex_bulk_modulus(self, frequency: ArrayLike) -> Complex:
+        """Return K*(w), MPa, for angular frequencies in rad/s of any shape."""
+        transfer = self.branch_transfer(frequency)
+        return self.long_term_bulk_modulus + np.tensordot(self.branch_bulk_moduli, transfer, axes=1)
+
+    def thickness_ratio(self, frequency: ArrayLike, plane: str) -> Complex:
+        """Return strain across the thickness over the in-plane dilatation: 0 in plane strain, dimensionless.
+
+        In plane stress the stress across the thickness vanishes: -(3K - 2G) / (3K + 4G).
+        """
+        shear = self.complex_shear_modulus(frequency)
+        if plane == "strain":
+            return np.zeros_like(shear)
+        bulk = self.complex_bulk_modulus(frequency)
+        return -(3.0 * bulk - 2.0 * shear) / (3.0 * bulk + 4.0 * shear)
+
+    def plane_modulus(self, frequency: ArrayLike, plane: str) -> Complex:
+        """Return the modulus E* of plane contact, MPa: 4G(3K+G)/(3K+4G) in strain, 9KG/(3K+G) in stress."""
+        shear, bulk = self.complex_shear_modulus(frequency), self.complex_bulk_modulus(frequency)
+        if plane == "strain":
+            return 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear)
+        return 9.0 * bulk * shear / (3.0 * bulk + shear)
+
+    def confined_modulus(self, plane: str) -> float:
+        """Return stress over strain, MPa, of the relaxed block pressed between tied sides."""
+        shear, bulk = self.long_term_shear_modulus, self.long_term_bulk_modulus
+        if plane == "strain":
+            return bulk + 4.0 * shear / 3.0
+        return 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear)
+
+    def effective_poissons_ratio(self, frequency: ArrayLike) -> Real:
+        """Return Poisson's ratio of the storage moduli at a frequency in rad/s; it may be negative."""
+        shear, bulk = self.complex_shear_modulus(frequency).real, self.complex_bulk_modulus(frequency).real
+        return (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+
+    def shear_wave_speed(self, frequency: ArrayLike) -> Real:
+        """Return the speed of shear waves, mm/s, with the stiffness |G*| at a frequency in rad/s."""
+        return np.sqrt(np.abs(self.complex_shear_modulus(frequency)) / self.density)
+
+
+def _positive_list(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
+    if not isinstance(values, (list, tuple)):
+        raise InvalidInput(f"{key} is {values!r}, but must be a list of numbers")
+    return tuple(checks.positive(f"{key}[{index}]", value, unit) for index, value in enumerate(values))
+
+
+def _decay(relaxation_times: tuple[float, ...], time: ArrayLike) -> Real:
+    rates = 1.0 / np.asarray(relaxation_times, dtype=float)
+    return np.exp(-np.multiply.outer(rates, np.asarray(time, dtype=float)))

@@ -1,0 +1,118 @@
+"""One job: a scale of the road, a speed, a load, a block, a rubber, and the numerics to solve it with."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from rubfric import checks
+from rubfric.material import PLANES, Material
+from rubfric.road import SineScale
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """How finely a scene is solved. The defaults of the workflow stand in its config.
+
+    Parameters
+    ----------
+    contact_nodes : int
+        Fewest surface nodes inside the contact; the number of columns follows from it.
+    columns_min, columns_max : int
+        Bounds on the number of columns of cells along one wavelength, multiples of 8.
+    row_growth : float
+        Ratio of the heights of neighbouring rows, away from the road, above 1.
+    first_row : float
+        Height of the row at the road over the width of a column.
+    output_columns : int
+        Most columns of cells that the fields of the result file keep, a multiple of 8.
+    """
+
+    contact_nodes: int = 64
+    columns_min: int = 256
+    columns_max: int = 262144
+    row_growth: float = 1.15
+    first_row: float = 1.0
+    output_columns: int = 128
+
+    def __post_init__(self) -> None:
+        at, put = "numerics.", object.__setattr__
+        put(self, "contact_nodes", checks.whole(at + "contact_nodes", self.contact_nodes, 4))
+        for name in ("columns_min", "columns_max", "output_columns"):
+            put(self, name, checks.multiple(at + name, getattr(self, name), 8))
+        put(self, "row_growth", checks.between(at + "row_growth", self.row_growth, 1.0, 3.0))
+        put(self, "first_row", checks.positive(at + "first_row", self.first_row))
+        checks.at_least(at + "columns_max", self.columns_max, self.columns_min)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything that one sliding simulation depends on; hashable, and equal to its equals.
+
+    Parameters
+    ----------
+    scale : int
+        Number of the scale on its road, 1 being the coarsest.
+    road : SineScale
+        That scale.
+    velocity : float
+        Sliding speed v, mm/s.
+    pressure : float
+        Nominal pressure p on the top of the block, MPa.
+    aspect : float
+        Height of the block over its width, one wavelength.
+    material : Material
+        The rubber.
+    plane : {"stress", "strain"}
+        Plane stress (the paper's CPS4R) or plane strain.
+    numerics : Numerics
+        Resolution.
+    """
+
+    scale: int
+    road: SineScale
+    velocity: float
+    pressure: float
+    aspect: float
+    material: Material
+    plane: str = "stress"
+    numerics: Numerics = field(default_factory=Numerics)
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        put(self, "scale", checks.whole("scale", self.scale, 1))
+        put(self, "velocity", checks.positive("velocity", self.velocity, "mm/s"))
+        put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
+        put(self, "aspect", checks.positive("aspect", self.aspect))
+        checks.one_of("plane", self.plane, PLANES)
+
+    @property
+    def name(self) -> str:
+        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``; one scene of a rubber and a road, one name."""
+        numbers = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
+        return "scale{}_v{}_p{}_aspect{}_{}".format(self.scale, *numbers, self.plane)
+
+    @property
+    def height(self) -> float:
+        """H = aspect x wavelength, mm."""
+        return self.aspect * self.road.wavelength
+
+    def parameters(self) -> dict[str, Any]:
+        """Return plain nested values (numbers, words, lists) that ``from_parameters`` reads back."""
+        return json.loads(json.dumps(asdict(self)))
+
+    @classmethod
+    def from_parameters(cls, parameters: Mapping[str, Any]) -> Scene:
+        """Build the scene that ``parameters`` describes; InvalidInput names what is wrong."""
+        given = dict(parameters)
+        road = SineScale(**given.pop("road"))
+        material = Material(**given.pop("material"))
+        return cls(road=road, material=material, numerics=Numerics(**given.pop("numerics")), **given)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the parameters, for provenance."""
+        return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,159 @@
+"""Steady sliding of one scene: which mesh it needs, its contact, and its displacements."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import next_fast_len
+
+from rubfric.block import Block
+from rubfric.contact import Contact, full_contact, solve_contact
+from rubfric.reference import layer_compliance
+from rubfric.scene import Scene
+from rubfric.smallstrain import HarmonicResponse, respond
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+# The search for a mesh starts at this many columns and doubles until this many nodes touch.
+_SCOUT_COLUMNS = 64
+_SCOUT_NODES = 16
+# A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
+_COLUMN_STEP = 8
+# Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
+_SHORTFALL = 0.1
+
+
+@dataclass(frozen=True)
+class SteadySolution:
+    """Steady sliding in small strain, in the frame of the road.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    block : Block
+        The mesh that the program chose.
+    response : HarmonicResponse
+        The block's harmonics that take part.
+    contact : Contact
+        Pressure, gap and offset at the surface nodes.
+    surface : ndarray of complex, shape (n,)
+        Amplitudes of u_y at the surface, mm, for the harmonics of ``response``.
+    iterations : int
+        Pivoting steps of all contact solves, the scouting ones included.
+    resolved : bool
+        Whether the contact holds the nodes asked for (within 10 %).
+    """
+
+    scene: Scene
+    block: Block
+    response: HarmonicResponse
+    contact: Contact
+    surface: Complex
+    iterations: int
+    resolved: bool
+
+    @property
+    def contact_fraction(self) -> float:
+        """Contact area over nominal area, dimensionless."""
+        return float(np.count_nonzero(self.contact.touching)) / self.block.columns
+
+    @property
+    def frequencies(self) -> Real:
+        """n k v, rad/s, of the harmonics that take part, shape (n,)."""
+        return self.response.harmonics * self.scene.road.excitation_frequency(self.scene.velocity)
+
+
+def solve(scene: Scene) -> SteadySolution:
+    """Slide a block steadily over its scale of the road.
+
+    The mesh follows the scene: full contact needs one harmonic and no contact solve; otherwise a closed-form
+    layer scouts the contact, and the block gets as many columns as put ``numerics.contact_nodes`` nodes in it.
+
+    Raises
+    ------
+    NotConverged
+        With the scene's name, step and residual.
+    """
+    filled = _solve_full(scene)
+    if filled is not None:
+        return filled
+    columns, touching, iterations = _scout(scene)
+    numerics = scene.numerics
+    while True:
+        block = _mesh(scene, columns)
+        response = respond(block, scene.material, scene.velocity, block.harmonics[1:])
+        spectrum = np.concatenate(([0.0], response.compliance))
+        profile = scene.road.height(block.column_positions)
+        contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
+        iterations += contact.iterations
+        touching = contact.touching
+        count = int(np.count_nonzero(touching))
+        resolved = count >= (1.0 - _SHORTFALL) * min(numerics.contact_nodes, columns)
+        finer = _columns(numerics.contact_nodes / count * columns, numerics.columns_min, numerics.columns_max)
+        if resolved or finer <= columns:
+            break
+        columns = finer
+    surface = response.compliance * np.fft.rfft(contact.pressure)[1:] / columns
+    return SteadySolution(scene, block, response, contact, surface, iterations, resolved)
+
+
+def _solve_full(scene: Scene) -> SteadySolution | None:
+    """Return the solution in full contact, which needs the first harmonic only, or None."""
+    block = _mesh(scene, scene.numerics.columns_min)
+    response = respond(block, scene.material, scene.velocity, np.array([1]))
+    spectrum = np.zeros(len(block.harmonics), dtype=complex)
+    spectrum[1] = response.compliance[0]
+    contact = full_contact(spectrum, scene.road.height(block.column_positions), scene.pressure)
+    if contact is None:
+        return None
+    surface = np.array([-0.5j * scene.road.amplitude])
+    return SteadySolution(scene, block, response, contact, surface, 0, True)
+
+
+def _mesh(scene: Scene, columns: int) -> Block:
+    numerics = scene.numerics
+    return Block.graded(
+        scene.road.wavelength, scene.height, columns, scene.plane, numerics.row_growth, numerics.first_row
+    )
+
+
+def _scout(scene: Scene) -> tuple[int, NDArray[np.bool_], int]:
+    """Return the columns that the scene needs, a first guess of the contact, and the steps it took.
+
+    The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
+    """
+    numerics, road = scene.numerics, scene.road
+    touching = np.ones(_SCOUT_COLUMNS // 2, dtype=bool)
+    columns, iterations = _SCOUT_COLUMNS, 0
+    while True:
+        harmonics = np.arange(1, columns // 2 + 1)
+        compliance = layer_compliance(
+            scene.material, road, scene.velocity, scene.height, scene.plane, harmonics
+        )
+        profile = road.height(road.wavelength / columns * np.arange(columns))
+        spectrum = np.concatenate(([0.0], compliance))
+        contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
+        iterations += contact.iterations
+        touching = contact.touching
+        count = int(np.count_nonzero(touching))
+        if count >= _SCOUT_NODES or columns >= numerics.columns_max:
+            needed = numerics.contact_nodes / count * columns
+            return _columns(needed, numerics.columns_min, numerics.columns_max), touching, iterations
+        columns = min(2 * columns, numerics.columns_max)
+
+
+def _columns(needed: float, fewest: int, most: int) -> int:
+    """Return a number of columns of at least ``needed`` that suits both the mesh and the Fourier transform."""
+    steps = next_fast_len(math.ceil(max(needed, fewest) / _COLUMN_STEP), real=True)
+    return min(_COLUMN_STEP * steps, most)
+
+
+def _carry(touching: NDArray[np.bool_], columns: int) -> NDArray[np.bool_]:
+    """Return a contact on another number of columns, widened by one of its own nodes on either side."""
+    wide = touching | np.roll(touching, 1) | np.roll(touching, -1)
+    return wide[np.arange(columns) * len(wide) // columns]
