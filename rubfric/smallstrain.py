@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rubfric.block import Block, RowOperator
+from rubfric.block import Block
 from rubfric.material import Material
 
 Complex = NDArray[np.complex128]
@@ -94,34 +94,57 @@ def respond(block: Block, material: Material, velocity: float, harmonics: NDArra
         Ascending, from 1 to columns / 2.
     """
     wavenumber = 2.0 * np.pi / block.width * harmonics
-    moduli = stiffness_moduli(material, wavenumber * velocity, block.plane)
-    operators = block.operators()
-    angle = 2.0 * np.pi / block.columns * harmonics
-    waves = (2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle))
+    chain = _weigh(block, harmonics, stiffness_moduli(material, wavenumber * velocity, block.plane))
     active = _active(block, wavenumber)
-
+    # u_x vanishes at the top: its harmonics are held, so only the entry yy is inverted there.
+    zero = np.zeros(active[-1], dtype=complex)
+    inverse = (zero, zero, 1.0 / chain.own[2][-1, : active[-1]])
     transfer: list[Complex] = []
-    count = active[-1]
-    _, _, stiffness = _weigh(operators, "diagonal", block.rows, moduli, waves, count)
-    zero = np.zeros(count, dtype=complex)
-    inverse = (zero, zero, 1.0 / stiffness)  # u_x vanishes at the top: its harmonics are held
     for row in range(block.rows - 1, -1, -1):
         above, count = active[row + 1], active[row]
-        xx, xy, yy = _weigh(operators, "diagonal", row, moduli, waves, count)
-        if above:
-            step, correction = _eliminate(_weigh_upward(operators, row, moduli, waves, above), inverse)
-            transfer.append(step)
-            for entry, part in zip((xx, xy, yy), correction, strict=True):
-                entry[:above] -= part
-        else:
-            transfer.append(np.zeros((2, 2, 0), dtype=complex))
+        xx, xy, yy = (entry[row, :count] for entry in chain.own)
+        step, correction = _eliminate(*(entry[row, :above] for entry in chain.upward), *inverse)
+        transfer.append(step)
+        for entry, part in zip((xx, xy, yy), correction, strict=True):
+            entry[:above] -= part
         determinant = xx * yy - xy * xy
         inverse = (yy / determinant, -xy / determinant, xx / determinant)
     _, coupling, compliance = inverse
     # A pressure p over one column acts on its node as the force p times the column's width.
-    return HarmonicResponse(
-        harmonics, compliance * block.column_width, coupling / compliance, transfer[::-1]
-    )
+    return HarmonicResponse(harmonics, compliance * block.column_width, coupling / compliance, transfer[::-1])
+
+
+@dataclass(frozen=True)
+class _Chain:
+    """Stiffness of all rows for all harmonics, MPa, entry by entry of the basis (i u_x, u_y).
+
+    Attributes
+    ----------
+    own : tuple of three ndarray of complex, shape (rows + 1, n)
+        xx, xy and yy of each row of nodes.
+    upward : tuple of four ndarray of complex, shape (rows, n)
+        xx, xy, yx and yy between a row and the one above.
+    """
+
+    own: tuple[Complex, ...]
+    upward: tuple[Complex, ...]
+
+
+def _weigh(block: Block, harmonics: NDArray[np.int64], moduli: tuple[Complex, Complex]) -> _Chain:
+    angle = 2.0 * np.pi / block.columns * harmonics
+    bend, sine = 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)
+    terms = list(zip(block.operators(), moduli, strict=True))
+
+    def straight(part: str, component: int) -> Complex:
+        blocks = ((getattr(operator, part)[:2, :, component, component], weight) for operator, weight in terms)
+        return sum(np.outer(uniform, weight) + np.outer(curved, weight * bend) for (uniform, curved), weight in blocks)
+
+    def mixed(part: str, low: int, high: int) -> Complex:
+        return sum(np.outer(getattr(operator, part)[2, :, low, high], weight * sine) for operator, weight in terms)
+
+    own = (straight("diagonal", 0), mixed("diagonal", 0, 1), straight("diagonal", 1))
+    upward = (straight("upward", 0), mixed("upward", 0, 1), mixed("upward", 1, 0), straight("upward", 1))
+    return _Chain(own, upward)
 
 
 def _active(block: Block, wavenumber: Real) -> list[int]:
@@ -130,54 +153,15 @@ def _active(block: Block, wavenumber: Real) -> list[int]:
     return [int(np.count_nonzero(reach >= position)) for position in block.row_positions]
 
 
-def _weigh(
-    operators: tuple[RowOperator, RowOperator],
-    part: str,
-    row: int,
-    moduli: tuple[Complex, Complex],
-    waves: tuple[Real, Real],
-    count: int,
-) -> tuple[Complex, Complex, Complex]:
-    """Return the entries xx, xy, yy of a row's own block, for the first ``count`` harmonics."""
-    bend, sine = (wave[:count] for wave in waves)
-    xx, xy, yy = (np.zeros(count, dtype=complex) for _ in range(3))
-    for operator, modulus in zip(operators, moduli, strict=True):
-        uniform, curved, mixed = operator.diagonal[:, row]
-        weight = modulus[:count]
-        xx += weight * (uniform[0, 0] + curved[0, 0] * bend)
-        yy += weight * (uniform[1, 1] + curved[1, 1] * bend)
-        xy += weight * (mixed[0, 1] * sine)
-    return xx, xy, yy
-
-
-def _weigh_upward(
-    operators: tuple[RowOperator, RowOperator],
-    row: int,
-    moduli: tuple[Complex, Complex],
-    waves: tuple[Real, Real],
-    count: int,
-) -> tuple[Complex, Complex, Complex, Complex]:
-    """Return the entries xx, xy, yx, yy of the block that couples a row to the one above."""
-    bend, sine = (wave[:count] for wave in waves)
-    xx, xy, yx, yy = (np.zeros(count, dtype=complex) for _ in range(4))
-    for operator, modulus in zip(operators, moduli, strict=True):
-        uniform, curved, mixed = operator.upward[:, row]
-        weight = modulus[:count]
-        xx += weight * (uniform[0, 0] + curved[0, 0] * bend)
-        yy += weight * (uniform[1, 1] + curved[1, 1] * bend)
-        xy += weight * (mixed[0, 1] * sine)
-        yx += weight * (mixed[1, 0] * sine)
-    return xx, xy, yx, yy
-
-
 def _eliminate(
-    upward: tuple[Complex, Complex, Complex, Complex], inverse: tuple[Complex, Complex, Complex]
+    xx: Complex, xy: Complex, yx: Complex, yy: Complex, first: Complex, mixed: Complex, last: Complex
 ) -> tuple[Complex, tuple[Complex, Complex, Complex]]:
-    """Return the transfer -S^-1 U^T to the row above, and the correction U S^-1 U^T (xx, xy, yy)."""
-    xx, xy, yx, yy = upward
-    first, mixed, last = inverse
-    low_x = (first * xx + mixed * xy, mixed * xx + last * xy)
-    low_y = (first * yx + mixed * yy, mixed * yx + last * yy)
-    correction = (xx * low_x[0] + xy * low_x[1], xx * low_y[0] + xy * low_y[1], yx * low_y[0] + yy * low_y[1])
-    step = -np.stack((np.stack((low_x[0], low_y[0])), np.stack((low_x[1], low_y[1]))))
-    return step, correction
+    """Return -S^-1 U^T, the transfer to the row above, and U S^-1 U^T (xx, xy, yy), the correction below.
+
+    ``xx`` to ``yy`` are the entries of U, and ``first`` (xx), ``mixed`` (xy), ``last`` (yy) those of S^-1.
+    """
+    x_from_x, y_from_x = first * xx + mixed * xy, mixed * xx + last * xy
+    x_from_y, y_from_y = first * yx + mixed * yy, mixed * yx + last * yy
+    correction = (xx * x_from_x + xy * y_from_x, xx * x_from_y + xy * y_from_y, yx * x_from_y + yy * y_from_y)
+    step = np.array(((x_from_x, x_from_y), (y_from_x, y_from_y)))
+    return np.negative(step, out=step), correction
