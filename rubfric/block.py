@@ -1,14 +1,16 @@
 """The rubber block: an x-periodic mesh of four-node cells and its operators, assembled by scikit-fem.
 
 The mesh is uniform along x and graded in y, fine at the road (y = 0). Every column of cells is therefore
-the same, and one column assembled on a strip one cell wide holds the whole block: node columns couple
-to themselves and to the next on either side, so that in Fourier space along x harmonic n of a block of N
-columns sees
+the same, and one column holds the whole block: node columns couple to themselves and to the next on either
+side, so that in Fourier space along x harmonic n of a block of N columns sees
 
     K(theta) = K_LL + K_RR + K_LR exp(i theta) + K_RL exp(-i theta),    theta = 2 pi n / N,
 
-where L and R are the strip's left and right nodes. Mirror symmetry in x makes K(theta) real and symmetric
-for the unknowns (i u_x, u_y), which is the basis used throughout.
+where L and R are the left and right nodes of a column of cells. Mirror symmetry in x makes K(theta) real and
+symmetric for the unknowns (i u_x, u_y), which is the basis used throughout.
+
+All cells are rectangles, and the products of gradients of a cell of width 1 and height h are those of the unit
+square times h (x with x), 1 (x with y) and 1 / h (y with y): scikit-fem assembles the unit square, once.
 """
 
 from __future__ import annotations
@@ -20,31 +22,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.sparse import csr_matrix
-from skfem import Basis, BilinearForm, ElementQuad1, ElementVector, MeshQuad
-from skfem.helpers import ddot, div, sym_grad
+from skfem import Basis, BilinearForm, ElementQuad1, MeshQuad
+from skfem.helpers import grad
 
 Real = NDArray[np.float64]
 
 FEWEST_ROWS = 8
-
-
-@BilinearForm
-def shear_form(u, v, w):
-    """Twice the scalar product of strains: the operator of 2 G in plane stress."""
-    return 2.0 * ddot(sym_grad(u), sym_grad(v))
-
-
-@BilinearForm
-def deviatoric_form(u, v, w):
-    """Twice the scalar product of the deviators of plane strain: the operator of G."""
-    return 2.0 * (ddot(sym_grad(u), sym_grad(v)) - div(u) * div(v) / 3.0)
-
-
-@BilinearForm
-def dilatation_form(u, v, w):
-    """Product of the in-plane dilatations."""
-    return div(u) * div(v)
 
 
 @dataclass(frozen=True)
@@ -152,16 +135,25 @@ class Block:
         return np.arange(self.columns // 2 + 1)
 
     def operators(self) -> tuple[RowOperator, RowOperator]:
-        """Return the operators of shear and of dilatation, to be weighed by ``stiffness_moduli``."""
-        heights = np.diff(self.row_positions) / self.column_width
-        return _operators(tuple(heights), self.plane)
+        """Return the operators of shear and of dilatation, to be weighed by the scene's moduli.
+
+        Plane stress: 2 eps : eps and tr tr. Plane strain: 2 e : e (deviator) and the product of the cells'
+        mean dilatations.
+        """
+        cells = _cell_products(np.diff(self.row_positions) / self.column_width)
+        shear = 2.0 * _strain_product(cells.full)
+        if self.plane == "stress":
+            return _harmonic(shear), _harmonic(_dilatation_product(cells.full))
+        deviator = shear - 2.0 / 3.0 * _dilatation_product(cells.full)
+        return _harmonic(deviator), _harmonic(_dilatation_product(cells.mean))
 
     def quadrature(self) -> Quadrature:
         """Return the quadrature of one column of cells."""
-        heights = np.diff(self.row_positions) / self.column_width
-        unit = _quadrature(tuple(heights))
-        width = self.column_width
-        return Quadrature(unit.shapes, unit.gradients / width, unit.weights * width**2)
+        heights = np.diff(self.row_positions)
+        shapes, unit, weights = _unit_quadrature()
+        size = np.stack((np.full_like(heights, self.column_width), heights), axis=-1)
+        gradients = unit / size[:, None, None, :]
+        return Quadrature(shapes, gradients, np.outer(heights, weights) * self.column_width)
 
 
 def graded_rows(height: float, first: float, growth: float) -> Real:
@@ -184,51 +176,56 @@ def graded_rows(height: float, first: float, growth: float) -> Real:
     return positions * (height / positions[-1])
 
 
-def _strip(heights: tuple[float, ...], form_order: int = 3) -> tuple[MeshQuad, Basis]:
-    """Return the strip one cell (of unit width) wide and the basis of its displacements."""
-    mesh = MeshQuad.init_tensor(np.array([0.0, 1.0]), np.concatenate(([0.0], np.cumsum(heights))))
-    return mesh, Basis(mesh, ElementVector(ElementQuad1()), intorder=form_order)
+@dataclass(frozen=True)
+class _CellProducts:
+    """Integrals over the cells of one column of the products of gradients, by two quadratures.
 
-
-def _node_order(basis: Basis, rows: int) -> NDArray[np.int64]:
-    """Return the strip's degrees of freedom as an array of shape (rows + 1, side, component)."""
-    x, y = basis.mesh.p
-    order = np.lexsort((x, y)).reshape(rows + 1, 2)
-    return np.asarray(basis.nodal_dofs[:, order].transpose(1, 2, 0))
-
-
-@lru_cache(maxsize=8)
-def _operators(heights: tuple[float, ...], plane: str) -> tuple[RowOperator, RowOperator]:
-    _, basis = _strip(heights)
-    dofs = _node_order(basis, len(heights))
-    if plane == "stress":
-        shear, dilatation = shear_form.assemble(basis), dilatation_form.assemble(basis)
-    else:
-        shear, dilatation = deviatoric_form.assemble(basis), mean_dilatation(basis)
-    return _harmonic(shear, dofs), _harmonic(dilatation, dofs)
-
-
-def mean_dilatation(basis: Basis) -> csr_matrix:
-    """Assemble the product of the cells' mean dilatations: exactly the form under one-point quadrature.
-
-    On a rectangle the divergence of a bilinear displacement has its mean at the centre.
+    Attributes
+    ----------
+    full, mean : ndarray, shape (2, 2, rows, 4, 4)
+        Integral of d_a N_i d_b N_j, dimensionless; under ``mean`` the product of the cell's mean gradients.
     """
-    centre = (np.array([[0.5], [0.5]]), np.array([1.0]))
-    return dilatation_form.assemble(Basis(basis.mesh, basis.elem, quadrature=centre))
+
+    full: Real
+    mean: Real
 
 
-def _harmonic(matrix: csr_matrix, dofs: NDArray[np.int64]) -> RowOperator:
-    flat = dofs.ravel()
-    # Axes of the strip's matrix: row, side, component of the test function, then of the displacement.
-    strip = matrix.toarray()[np.ix_(flat, flat)].reshape(dofs.shape + dofs.shape)
-    low = np.arange(dofs.shape[0])
-    return RowOperator(_fourier(strip, low, low), _fourier(strip, low[:-1], low[1:]))
+def _cell_products(heights: Real) -> _CellProducts:
+    """Return the products for cells of width 1 and the given heights, shape (rows,)."""
+    ones = np.ones_like(heights)
+    scale = np.array(((heights, ones), (ones, 1.0 / heights)))[..., None, None]
+    full, mean = _unit_products()
+    return _CellProducts(scale * full[:, :, None], scale * mean[:, :, None])
 
 
-def _fourier(strip: Real, low: NDArray[np.int64], high: NDArray[np.int64]) -> Real:
-    """Return the uniform, bending and sine parts of the blocks of row pairs, in the basis (i u_x, u_y)."""
-    same = strip[low, 0, :, high, 0] + strip[low, 1, :, high, 1]
-    forward, backward = strip[low, 0, :, high, 1], strip[low, 1, :, high, 0]
+def _strain_product(products: Real) -> Real:
+    """Return eps(u) : eps(v), shape (rows, 4, 2, 4, 2): nodes and components of v, then of u."""
+    cells = np.zeros((products.shape[2], 4, 2, 4, 2))
+    for one, other in ((0, 1), (1, 0)):
+        cells[:, :, one, :, one] = products[one, one] + 0.5 * products[other, other]
+        cells[:, :, one, :, other] = 0.5 * products[other, one]
+    return cells
+
+
+def _dilatation_product(products: Real) -> Real:
+    """Return tr(u) tr(v), shape (rows, 4, 2, 4, 2): nodes and components of v, then of u."""
+    return np.ascontiguousarray(products.transpose(2, 3, 0, 4, 1))
+
+
+def _harmonic(cells: Real) -> RowOperator:
+    """Return a form of one column of cells, shape (rows, 4, 2, 4, 2), in harmonic space."""
+    corners = cells.reshape(-1, 2, 2, 2, 2, 2, 2)  # cell, then level, side, component of v and of u
+    rows = len(corners)
+    own = np.zeros((rows + 1, 2, 2, 2, 2))  # side and component of v, then of u
+    own[:-1] += corners[:, 0, :, :, 0]
+    own[1:] += corners[:, 1, :, :, 1]
+    return RowOperator(_fourier(own), _fourier(corners[:, 0, :, :, 1]))
+
+
+def _fourier(blocks: Real) -> Real:
+    """Return the uniform, bending and sine parts of blocks of shape (rows, side, 2, side, 2)."""
+    same = blocks[:, 0, :, 0] + blocks[:, 1, :, 1]
+    forward, backward = blocks[:, 0, :, 1], blocks[:, 1, :, 0]
     # Rows of u_x are multiplied by i and its columns by -i, which turns i sin(theta) real;
     # by mirror symmetry only the mixed entries have a sine, and only the others the rest.
     straight, mixed = np.eye(2), np.array([[0.0, -1.0], [1.0, 0.0]])
@@ -236,21 +233,39 @@ def _fourier(strip: Real, low: NDArray[np.int64], high: NDArray[np.int64]) -> Re
     return np.stack(((same + across) * straight, -across * straight, (forward - backward) * mixed))
 
 
-@lru_cache(maxsize=8)
-def _quadrature(heights: tuple[float, ...]) -> Quadrature:
-    """Return the quadrature of the strip one cell of unit width wide, rows from the road upwards."""
-    mesh, _ = _strip(heights)
-    scalar = Basis(mesh, ElementQuad1(), intorder=3)
-    middle = mesh.p[:, mesh.t].mean(axis=1, keepdims=True)
-    cells = np.argsort(middle[1, 0])
-    # Corner of each local node: 0 or 1 for left or right, plus 0 or 2 for low or high.
-    corner = ((mesh.p[:, mesh.t] > middle) * np.array([1, 2])[:, None, None]).sum(axis=0)
-    gradients = np.zeros((len(heights), scalar.dx.shape[1], 4, 2))
-    shapes = np.zeros((len(heights), scalar.dx.shape[1], 4))
-    for local in range(4):
-        field = scalar.basis[local][0]
-        value = np.broadcast_to(field.value, scalar.dx.shape)
-        for row, cell in enumerate(cells):
-            gradients[row, :, corner[local, cell]] = field.grad[:, cell].T
-            shapes[row, :, corner[local, cell]] = value[cell]
-    return Quadrature(shapes[0], gradients, scalar.dx[cells])
+def _unit_square() -> tuple[MeshQuad, NDArray[np.int64]]:
+    """Return the unit square as a mesh of one cell, and its nodes left low, right low, left high, right high."""
+    mesh = MeshQuad.init_tensor(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    return mesh, np.lexsort(mesh.p)
+
+
+@lru_cache(maxsize=1)
+def _unit_products() -> tuple[Real, Real]:
+    """Return the products of gradients on the unit square, shape (2, 2, 4, 4): exact, and of their means."""
+    mesh, order = _unit_square()
+    exact = Basis(mesh, ElementQuad1(), intorder=2)
+    # The mean gradient of a bilinear function on a rectangle is that at the centre. (An intorder of 1 is no
+    # use here: scikit-fem rounds it up to four points.)
+    centre = Basis(mesh, ElementQuad1(), quadrature=(np.array([[0.5], [0.5]]), np.array([1.0])))
+
+    def product(basis: Basis, first: int, second: int) -> Real:
+        form = BilinearForm(lambda u, v, w: grad(v)[first] * grad(u)[second])
+        return np.asarray(form.assemble(basis).toarray())[np.ix_(order, order)]
+
+    full, mean = (
+        np.array([[product(basis, first, second) for second in (0, 1)] for first in (0, 1)])
+        for basis in (exact, centre)
+    )
+    return full, mean
+
+
+@lru_cache(maxsize=1)
+def _unit_quadrature() -> tuple[Real, Real, Real]:
+    """Return shapes (points, 4), gradients (points, 4, 2) and weights (points,) on the unit square."""
+    mesh, order = _unit_square()
+    basis = Basis(mesh, ElementQuad1(), intorder=3)
+    local = [int(np.flatnonzero(basis.dofs.element_dofs[:, 0] == node)[0]) for node in order]
+    fields = [basis.basis[index][0] for index in local]
+    shapes = np.stack([np.broadcast_to(field.value, basis.dx.shape)[0] for field in fields], axis=1)
+    gradients = np.stack([field.grad[:, 0].T for field in fields], axis=1)
+    return shapes, gradients, np.asarray(basis.dx[0])

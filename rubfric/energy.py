@@ -9,6 +9,7 @@ The friction coefficient is F / (p lambda). The means are exact sums over harmon
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,7 +59,8 @@ def evaluate(solution: SteadySolution) -> Energies:
     """Return the friction coefficient by three routes and the stored strain energy of a solved scene."""
     scene, block, frequencies = solution.scene, solution.block, solution.frequencies
     displacement = solution.response.displacement(solution.surface)
-    strain = harmonic_strain(block, scene.material, solution.response.harmonics, frequencies, displacement)
+    thickness = scene.material.thickness_ratio(frequencies, scene.plane)
+    strain = harmonic_strain(block, solution.response, thickness, displacement)
     # Amplitudes stand for a harmonic and its conjugate, but for the last one, which is its own.
     pairs = np.where(solution.response.harmonics == block.columns // 2, 1.0, 2.0)
     scale = block.columns / (scene.velocity * scene.pressure * block.width)
@@ -74,7 +76,7 @@ def evaluate(solution: SteadySolution) -> Energies:
         dissipation=float(scale * lost),
         contact=float(np.mean(solution.contact.pressure * slope) / scene.pressure),
         depth_profile=_rows_to_nodes(heights, rest + stored / (heights * block.column_width)),
-        density=nodal_density(scene, frequencies, strain, block.columns // stride),
+        density=nodal_density(solution, strain, thickness, block.columns // stride),
         displacement=_displacement(solution, displacement, block.columns // stride),
     )
 
@@ -102,7 +104,7 @@ def stored_energy(material: Material, frequencies: Real, strain: StrainHarmonics
     return shear * strain.shear_square + 0.5 * bulk * strain.volume_square
 
 
-def nodal_density(scene: Scene, frequencies: Real, strain: StrainHarmonics, columns: int) -> Real:
+def nodal_density(solution: SteadySolution, strain: StrainHarmonics, thickness: Complex, columns: int) -> Real:
     """Return the stored strain-energy density, MPa, at the nodes of evenly spread columns.
 
     Each spring of the model carries its own share of the nodal strains, which are recovered from the
@@ -112,34 +114,42 @@ def nodal_density(scene: Scene, frequencies: Real, strain: StrainHarmonics, colu
     -------
     ndarray, shape (rows + 1, columns)
     """
-    material = scene.material
+    scene, material = solution.scene, solution.scene.material
     pressed = -scene.pressure / material.confined_modulus(scene.plane)
     across = float(material.thickness_ratio(0.0, scene.plane).real) * pressed
-    rest = np.array([0.0, pressed, 0.0, across, pressed + across])
-    ones = np.ones(len(frequencies), dtype=complex)
-    mean = rest[None, :, None]
-    carried = synthesise(strain.nodal * ones, strain.harmonics, columns) + mean
-    density = _spring_energy(carried, material.long_term_shear_modulus, material.long_term_bulk_modulus)
-    branches = zip(material.branch_shear_moduli, material.branch_bulk_moduli, strict=True)
-    for (shear, bulk), transfer in zip(branches, material.branch_transfer(frequencies), strict=True):
-        density += _spring_energy(synthesise(strain.nodal * transfer, strain.harmonics, columns), shear, bulk)
+    ones = np.ones_like(solution.frequencies)[None]
+    transfer = np.concatenate((ones, material.branch_transfer(solution.frequencies)))[:, None]
+    shear = np.concatenate(([material.long_term_shear_modulus], material.branch_shear_moduli))
+    bulk = np.concatenate(([material.long_term_bulk_modulus], material.branch_bulk_moduli))
+    density = np.zeros((len(strain.nodal), columns))
+    for rows, count in _node_bands(solution):
+        amplitude = strain.nodal[rows, :, :count].swapaxes(0, 1)
+        springs = transfer[..., :count]
+        xx, yy, xy, dilatation = (
+            synthesise(component * springs, strain.harmonics, columns) for component in amplitude
+        )
+        zz = np.zeros_like(xx)
+        if scene.plane == "stress":
+            zz = synthesise(amplitude[3] * (springs * thickness[:count]), strain.harmonics, columns)
+        yy[0] += pressed
+        zz[0] += across
+        dilatation[0] += pressed
+        deviator = xx * xx + yy * yy + 2.0 * xy * xy + zz * zz - (xx + yy + zz) ** 2 / 3.0
+        density[rows] = np.tensordot(shear, deviator, 1) + 0.5 * np.tensordot(bulk, (dilatation + zz) ** 2, 1)
     return density
 
 
-def _spring_energy(strain: Real, shear: float, bulk: float) -> Real:
-    """Return G e : e + K tr² / 2, MPa, from strains of shape (rows, 5, m): xx, yy, xy, zz, dilatation."""
-    xx, yy, xy, zz, dilatation = np.moveaxis(strain, 1, 0)
-    deviator = xx * xx + yy * yy + 2.0 * xy * xy + zz * zz - (xx + yy + zz) ** 2 / 3.0
-    return shear * deviator + 0.5 * bulk * dilatation * dilatation
+def _node_bands(solution: SteadySolution) -> Iterator[tuple[slice, int]]:
+    """Group the rows of nodes as ``HarmonicResponse.bands`` groups the rows of cells; the last has the top."""
+    for rows, count in solution.response.bands():
+        top = rows.stop == solution.block.rows
+        yield slice(rows.start, rows.stop + 1 if top else rows.stop), count
 
 
-def _displacement(solution: SteadySolution, displacement: list[Complex], columns: int) -> Real:
+def _displacement(solution: SteadySolution, displacement: Complex, columns: int) -> Real:
     """Return the displacement, mm, at the nodes of evenly spread columns, shape (rows + 1, 2, columns)."""
     scene, block = solution.scene, solution.block
-    spectrum = np.zeros((block.rows + 1, 2, len(solution.frequencies)), dtype=complex)
-    for row, amplitude in enumerate(displacement):
-        spectrum[row, :, : amplitude.shape[1]] = amplitude
-    field = synthesise(spectrum, solution.response.harmonics, columns)
+    field = synthesise(displacement, solution.response.harmonics, columns)
     pressed = -scene.pressure / scene.material.confined_modulus(scene.plane)
     field[:, 1] += solution.contact.offset + pressed * block.row_positions[:, None]
     return field

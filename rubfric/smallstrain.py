@@ -11,6 +11,7 @@ last harmonic, n = columns / 2.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,7 +40,8 @@ class HarmonicResponse:
     shear_ratio : ndarray of complex, shape (n,)
         Amplitude of i u_x over that of u_y at the surface, dimensionless.
     transfer : list of ndarray of complex, each of shape (2, 2, m)
-        From (i u_x, u_y) of a row of nodes to that of the row above, for the first m harmonics.
+        From (i u_x, u_y) of a row of nodes to that of the row above, for the first m harmonics: the
+        others have faded.
     """
 
     harmonics: NDArray[np.int64]
@@ -47,7 +49,7 @@ class HarmonicResponse:
     shear_ratio: Complex
     transfer: list[Complex]
 
-    def displacement(self, surface: Complex) -> list[Complex]:
+    def displacement(self, surface: Complex) -> Complex:
         """Return the amplitudes (u_x, u_y), mm, of every row of nodes from those of u_y at the surface.
 
         Parameters
@@ -57,16 +59,33 @@ class HarmonicResponse:
 
         Returns
         -------
-        list of ndarray, each of shape (2, m)
-            Rows from the road to the top; the first m harmonics, the others have faded.
+        ndarray of complex, shape (rows + 1, 2, n)
+            Rows from the road to the top.
         """
-        row = np.stack((self.shear_ratio * surface, surface))
-        rows = [row]
-        for step in self.transfer:
-            below = row[:, : step.shape[-1]]
-            row = step[:, 0] * below[0] + step[:, 1] * below[1]
-            rows.append(row)
-        return [np.stack((-1j * turned[0], turned[1])) for turned in rows]
+        rows = np.zeros((len(self.transfer) + 1, 2, len(surface)), dtype=complex)
+        rows[0] = self.shear_ratio * surface, surface
+        for below, (step, above) in enumerate(zip(self.transfer, rows[1:], strict=True)):
+            count = step.shape[-1]
+            above[:, :count] = step[:, 0] * rows[below, 0, :count] + step[:, 1] * rows[below, 1, :count]
+        rows[:, 0] *= -1j
+        return rows
+
+    def bands(self) -> Iterator[tuple[slice, int]]:
+        """Group the rows of cells by how many harmonics reach them, to within a factor of two.
+
+        Yields
+        ------
+        rows : slice
+            Rows of cells.
+        count : int
+            Harmonics, from the first, that reach any of them.
+        """
+        reach = [len(self.harmonics)] + [step.shape[-1] for step in self.transfer[:-1]]
+        start = 0
+        for row in range(1, len(reach) + 1):
+            if row == len(reach) or reach[row] <= reach[start] // 2:
+                yield slice(start, row), reach[start]
+                start = row
 
 
 def stiffness_moduli(material: Material, frequency: Real, plane: str) -> tuple[Complex, Complex]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rubfric.block import Block, Quadrature
-from rubfric.material import Material
+from rubfric.smallstrain import HarmonicResponse
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -26,8 +26,8 @@ class StrainHarmonics:
         Integral of |e|² (deviator) over one cell of every row, mm².
     volume_square : ndarray, shape (rows, n)
         Integral of |tr|² (dilatation) over one cell of every row, mm².
-    nodal : ndarray of complex, shape (rows + 1, 5, n)
-        Strains xx, yy, xy and zz and the dilatation at the nodes, averaged from the quadrature points by area.
+    nodal : ndarray of complex, shape (rows + 1, 4, n)
+        Strains xx, yy, xy and in-plane dilatation at the nodes, averaged from the quadrature points by area.
     """
 
     harmonics: NDArray[np.int64]
@@ -36,50 +36,44 @@ class StrainHarmonics:
     nodal: Complex
 
 
-def harmonic_strain(
-    block: Block,
-    material: Material,
-    harmonics: NDArray[np.int64],
-    frequencies: Real,
-    displacement: list[Complex],
-) -> StrainHarmonics:
+def harmonic_strain(block: Block, response: HarmonicResponse, thickness: Complex, displacement: Complex) -> StrainHarmonics:
     """Return the strains of the displacement amplitudes, by quadrature over one column of cells.
 
     Parameters
     ----------
-    harmonics : ndarray of int, shape (n,)
-        Harmonics that the displacement has.
-    frequencies : ndarray, shape (n,)
-        Their frequencies, rad/s.
-    displacement : list of ndarray of complex, each of shape (2, m)
-        (u_x, u_y) of the rows of nodes from the road upwards, mm, for the first m harmonics.
+    thickness : ndarray of complex, shape (n,)
+        Strain across the thickness over in-plane dilatation, for each harmonic.
+    displacement : ndarray of complex, shape (rows + 1, 2, n)
+        (u_x, u_y) of the rows of nodes from the road upwards, mm.
     """
+    harmonics = response.harmonics
     quadrature = block.quadrature()
     strains, recovery, area = _recovery(quadrature, block.plane)
-    points = quadrature.weights.shape[1]
-    matrix = np.concatenate((strains, recovery), axis=1).astype(complex)
+    matrix = np.concatenate((strains, recovery), axis=1)
     turn = np.exp(2j * np.pi / block.columns * harmonics)
-    thickness = material.thickness_ratio(frequencies, block.plane)
     shear, volume = (np.zeros((block.rows, len(harmonics))) for _ in range(2))
-    nodal = np.zeros((block.rows + 1, 5, len(harmonics)), dtype=complex)
-    for row in range(block.rows):
-        low, high = displacement[row], displacement[row + 1]
-        count, above = low.shape[1], high.shape[1]
-        nodes = np.zeros((4, 2, count), dtype=complex)
-        nodes[0], nodes[1] = low, low * turn[:count]
-        nodes[2, :, :above], nodes[3, :, :above] = high, high * turn[:above]
-        product = matrix[row] @ nodes.reshape(8, count)
-        strain = product[: 3 * points].reshape(points, 3, count)
-        shear[row, :count], volume[row, :count] = _squares(
-            strain, quadrature.weights[row], thickness[:count], block.plane
+    nodal = np.zeros((block.rows + 1, 4, len(harmonics)), dtype=complex)
+    for rows, count in response.bands():
+        above = slice(rows.start + 1, rows.stop + 1)
+        low, high = displacement[rows, :, :count], displacement[above, :, :count]
+        nodes = np.stack((low, low * turn[:count], high, high * turn[:count]), axis=1)
+        product = _apply(matrix[rows], nodes.reshape(-1, 8, count))
+        strain, corners = np.split(product, [strains.shape[1]], axis=1)
+        shear[rows, :count], volume[rows, :count] = _squares(
+            strain.reshape(len(strain), -1, 3, count), quadrature.weights[rows], thickness[:count], block.plane
         )
         # A node is the left corner of the cell to its right, and the right corner of the one to its left.
-        corners = product[3 * points :].reshape(2, 2, 4, count)
-        nodal[row : row + 2, [0, 1, 2, 4], :count] += corners[:, 0] + corners[:, 1] / turn[:count]
+        corners = corners.reshape(-1, 2, 2, 4, count)
+        levels = corners[:, :, 0] + corners[:, :, 1] / turn[:count]
+        nodal[rows, :, :count] += levels[:, 0]
+        nodal[above, :, :count] += levels[:, 1]
     nodal /= area[:, None, None]
-    nodal[:, 3] = thickness * nodal[:, 4]
-    nodal[:, 4] += nodal[:, 3]
     return StrainHarmonics(harmonics, shear, volume, nodal)
+
+
+def _apply(matrix: Real, nodes: Complex) -> Complex:
+    """Return matrix @ nodes for a real matrix, without making it complex."""
+    return (matrix @ nodes.view(float)).view(complex)
 
 
 def _recovery(quadrature: Quadrature, plane: str) -> tuple[Real, Real, Real]:
@@ -111,15 +105,18 @@ def _recovery(quadrature: Quadrature, plane: str) -> tuple[Real, Real, Real]:
 
 
 def _squares(strain: Complex, weights: Real, thickness: Complex, plane: str) -> tuple[Real, Real]:
-    """Return the integrals of |e|² and |tr|² over a cell from strains of shape (points, 3, n)."""
-    flat = strain[:, 0] + strain[:, 1]
-    across = thickness * flat
-    dilatation = flat + across
-    total = _square(strain[:, 0]) + _square(strain[:, 1]) + 2.0 * _square(strain[:, 2]) + _square(across)
-    shear = weights @ (total - _square(dilatation) / 3.0)
+    """Return the integrals of |e|² and |tr|² over cells, (rows, n), from strains (rows, points, 3, n)."""
+    xx, yy, xy = strain[:, :, 0], strain[:, :, 1], strain[:, :, 2]
+    flat = _square(xx + yy)
+    across = _square(thickness)
+    dilatation = _square(1.0 + thickness) * flat
+    deviator = _square(xx) + _square(yy) + 2.0 * _square(xy) + across * flat - dilatation / 3.0
+    shear = np.einsum("rp,rpn->rn", weights, deviator)
     if plane == "strain":
-        return shear, weights.sum() * _square(weights @ dilatation / weights.sum())
-    return shear, weights @ _square(dilatation)
+        area = weights.sum(axis=1)
+        mean = np.einsum("rp,rpn->rn", weights, xx + yy) / area[:, None]
+        return shear, area[:, None] * _square(mean)
+    return shear, np.einsum("rp,rpn->rn", weights, dilatation)
 
 
 def _square(amplitude: Complex) -> Real:
@@ -127,25 +124,26 @@ def _square(amplitude: Complex) -> Real:
 
 
 def synthesise(amplitude: Complex, harmonics: NDArray[np.int64], columns: int) -> Real:
-    """Return the real field f(x) = Re sum_n pairs_n f_n exp(i n k x) at evenly spread columns.
+    """Return the real field f(x) = 2 Re sum_n f_n exp(i n k x) at evenly spread columns.
 
     Harmonics that the columns cannot tell apart are folded together, so the values are exact there.
-    All harmonics count twice, for themselves and their conjugates.
 
     Parameters
     ----------
-    amplitude : ndarray of complex, shape (..., n)
+    amplitude : ndarray of complex, shape (..., m)
     harmonics : ndarray of int, shape (n,)
-        Ascending, without gaps.
+        Without gaps; the amplitudes are those of the first m.
     columns : int
 
     Returns
     -------
     ndarray, shape (..., columns)
     """
-    first, turns = int(harmonics[0]), int(harmonics[-1]) // columns + 1
+    first = int(harmonics[0])
+    turns = (first + amplitude.shape[-1] - 1) // columns + 1
     folded = np.zeros((*amplitude.shape[:-1], turns * columns), dtype=complex)
-    folded[..., first : first + len(harmonics)] = amplitude
+    folded[..., first : first + amplitude.shape[-1]] = amplitude
     if turns > 1:
         folded = folded.reshape(*amplitude.shape[:-1], turns, columns).sum(axis=-2)
-    return 2.0 * columns * np.fft.ifft(folded).real
+    field: Real = np.fft.ifft(folded, norm="forward").real
+    return 2.0 * field
