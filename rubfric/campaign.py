@@ -1,0 +1,255 @@
+"""A config read and checked: the rubber, the road, and every scene that a campaign consists of.
+
+Light on purpose: the workflow reads it before any job starts, so nothing of the mechanics is imported here.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rubfric import checks
+from rubfric.errors import InvalidInput
+from rubfric.material import PLANES, Material
+from rubfric.road import SineScale, scales_from_config
+from rubfric.scene import Numerics, Scene
+
+_KEYS = ("results", "rubber", "road", "plane", "grid", "aspect_study", "figures", "numerics", "rubbers", "roads")
+
+
+@dataclass(frozen=True)
+class AspectStudy:
+    """Height-to-width ratios to compare, at some scales and pressures (MPa) and all velocities of the grid."""
+
+    aspects: tuple[float, ...]
+    scales: tuple[int, ...]
+    pressures: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class FigureChoice:
+    """What the figures show: the pressure of the total, and the scenes whose fields are drawn (MPa, mm/s)."""
+
+    total_pressure: float
+    scale: int
+    velocities: tuple[float, ...]
+    pressures: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """All that a config asks for.
+
+    Attributes
+    ----------
+    results : str
+        Folder of the outputs.
+    material : Material
+        The rubber in use.
+    road_name : str
+        Name of the road in use.
+    road : tuple of SineScale
+        Its scales, from coarse to fine.
+    plane : {"stress", "strain"}
+        Plane stress or plane strain.
+    velocities : tuple of float
+        mm/s, ascending.
+    pressures : tuple of float
+        MPa, ascending.
+    aspect : float
+        Height over width of the grid's blocks.
+    aspect_study : AspectStudy
+    figures : FigureChoice
+    numerics : Numerics
+    """
+
+    results: str
+    material: Material
+    road_name: str
+    road: tuple[SineScale, ...]
+    plane: str
+    velocities: tuple[float, ...]
+    pressures: tuple[float, ...]
+    aspect: float
+    aspect_study: AspectStudy
+    figures: FigureChoice
+    numerics: Numerics
+
+    @classmethod
+    def from_config(cls, config: Mapping[str, Any]) -> Campaign:
+        """Check a config whole and read it; InvalidInput says in one sentence what is wrong with it."""
+        checks.known_keys("config", config, _KEYS, _KEYS)
+        materials = {name: Material.from_config(name, entry) for name, entry in _catalogue(config, "rubbers").items()}
+        roads = {name: scales_from_config(name, entry) for name, entry in _catalogue(config, "roads").items()}
+        road = roads[checks.one_of("road", config["road"], roads)]
+        keys = ("velocities", "pressures", "aspect")
+        grid = checks.known_keys("grid", config["grid"], keys, keys)
+        velocities = checks.grid("grid.velocities", grid["velocities"], "mm/s")
+        pressures = checks.grid("grid.pressures", grid["pressures"], "MPa")
+        return cls(
+            results=_folder(config["results"]),
+            material=materials[checks.one_of("rubber", config["rubber"], materials)],
+            road_name=config["road"],
+            road=road,
+            plane=checks.one_of("plane", config["plane"], PLANES),
+            velocities=velocities,
+            pressures=pressures,
+            aspect=checks.positive("grid.aspect", grid["aspect"]),
+            aspect_study=_read_aspect_study(config["aspect_study"], len(road)),
+            figures=_read_figures(config["figures"], len(road), velocities, pressures),
+            numerics=_read_numerics(config["numerics"]),
+        )
+
+    def scene(
+        self, scale: int, velocity: float, pressure: float, aspect: float | None = None, plane: str | None = None
+    ) -> Scene:
+        """Return any scene of this rubber on this road, in the grid or not.
+
+        Parameters
+        ----------
+        scale : int
+            1 for the coarsest scale of the road.
+        velocity : float
+            mm/s.
+        pressure : float
+            Nominal, MPa.
+        aspect : float, optional
+            Height over width; the grid's by default.
+        plane : {"stress", "strain"}, optional
+            The config's by default.
+        """
+        index = _scale("scale", scale, len(self.road))
+        return Scene(
+            scale=index,
+            road=self.road[index - 1],
+            velocity=velocity,
+            pressure=pressure,
+            aspect=self.aspect if aspect is None else aspect,
+            material=self.material,
+            plane=self.plane if plane is None else plane,
+            numerics=self.numerics,
+        )
+
+    @property
+    def scales(self) -> range:
+        """Numbers of the road's scales, from 1."""
+        return range(1, len(self.road) + 1)
+
+    def scenes(self) -> dict[str, Scene]:
+        """Return every scene of the grid and of the aspect study, each once, by name."""
+        return {scene.name: scene for scene in self._all_scenes()}
+
+    def _all_scenes(self) -> Iterator[Scene]:
+        for scale, velocity, pressure in product(self.scales, self.velocities, self.pressures):
+            yield self.scene(scale, velocity, pressure)
+        study = self.aspect_study
+        for scale, velocity, pressure, aspect in product(
+            study.scales, self.velocities, study.pressures, study.aspects
+        ):
+            yield self.scene(scale, velocity, pressure, aspect)
+
+    def field_scenes(self) -> dict[str, Scene]:
+        """Return the scenes whose fields are drawn, by name; pressure by pressure."""
+        chosen = self.figures
+        scenes = (
+            self.scene(chosen.scale, velocity, pressure)
+            for pressure, velocity in product(chosen.pressures, chosen.velocities)
+        )
+        return {scene.name: scene for scene in scenes}
+
+
+def load(*paths: str | os.PathLike[str]) -> Campaign:
+    """Read one or more YAML configs, each laid over the ones before, and check the whole.
+
+    Raises
+    ------
+    InvalidInput
+        For a file that is no YAML, or a config that is wrong.
+    FileNotFoundError
+        For a missing file.
+    """
+    merged: dict[str, Any] = {}
+    for path in paths:
+        try:
+            entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        except yaml.YAMLError as error:
+            raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {error}") from error
+        if not isinstance(entry, Mapping):
+            raise InvalidInput(f"{os.fspath(path)} holds {entry!r}, but must hold the keys {', '.join(_KEYS)}")
+        merged = _overlay(merged, entry)
+    return Campaign.from_config(merged)
+
+
+def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge two configs as Snakemake does: mappings key by key, anything else is replaced."""
+    merged = dict(base)
+    for key, value in above.items():
+        nested = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
+        merged[key] = _overlay(merged[key], value) if nested else value
+    return merged
+
+
+def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    entries = config[key]
+    if not isinstance(entries, Mapping) or not entries:
+        raise InvalidInput(f"{key} is {entries!r}, but must hold at least one entry by name")
+    for name in entries:
+        checks.text(f"name in {key}", name)
+    return entries
+
+
+def _folder(value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise InvalidInput(f"results is {value!r}, but must be the path of a folder")
+    return value.rstrip("/") or "/"
+
+
+def _scale(key: str, value: Any, scales: int) -> int:
+    number = checks.whole(key, value, 1)
+    if number > scales:
+        raise InvalidInput(f"{key} is {number}, but must be one of the road's scales, 1 to {scales}")
+    return number
+
+
+def _read_aspect_study(entry: Any, scales: int) -> AspectStudy:
+    keys = tuple(field.name for field in fields(AspectStudy))
+    checks.known_keys("aspect_study", entry, keys, keys)
+    numbers = checks.grid("aspect_study.scales", entry["scales"])
+    return AspectStudy(
+        aspects=checks.grid("aspect_study.aspects", entry["aspects"]),
+        scales=tuple(_scale("aspect_study.scales", number, scales) for number in numbers),
+        pressures=checks.grid("aspect_study.pressures", entry["pressures"], "MPa"),
+    )
+
+
+def _read_figures(
+    entry: Any, scales: int, velocities: tuple[float, ...], pressures: tuple[float, ...]
+) -> FigureChoice:
+    checks.known_keys("figures", entry, ("total_pressure", "fields"), ("total_pressure", "fields"))
+    keys = ("scale", "velocities", "pressures")
+    chosen = checks.known_keys("figures.fields", entry["fields"], keys, keys)
+    total = checks.positive("figures.total_pressure", entry["total_pressure"], "MPa")
+    speeds = checks.grid("figures.fields.velocities", chosen["velocities"], "mm/s")
+    loads = checks.grid("figures.fields.pressures", chosen["pressures"], "MPa")
+    _subset("figures.total_pressure", (total,), "grid.pressures", pressures)
+    _subset("figures.fields.pressures", loads, "grid.pressures", pressures)
+    _subset("figures.fields.velocities", speeds, "grid.velocities", velocities)
+    return FigureChoice(total, _scale("figures.fields.scale", chosen["scale"], scales), speeds, loads)
+
+
+def _subset(key: str, values: tuple[float, ...], whole: str, allowed: tuple[float, ...]) -> None:
+    for value in values:
+        if value not in allowed:
+            known = ", ".join(checks.written(number) for number in allowed)
+            raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from {whole}: {known}")
+
+
+def _read_numerics(entry: Any) -> Numerics:
+    keys = tuple(field.name for field in fields(Numerics))
+    return Numerics(**checks.known_keys("numerics", entry, keys, keys))

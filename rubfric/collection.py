@@ -1,0 +1,98 @@
+"""All scenes of a campaign in one dataset over (scale, velocity, pressure, aspect)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from rubfric import __version__
+from rubfric.dataset import CONVENTIONS, PAPER, SCALARS
+from rubfric.errors import BrokenResult
+
+AXES: dict[str, tuple[str, str]] = {
+    "scale": ("1", "scale of the road, 1 being the coarsest"),
+    "velocity": ("mm s-1", "sliding speed"),
+    "pressure": ("MPa", "nominal pressure"),
+    "aspect": ("1", "height of the block over its width"),
+}
+_ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
+
+
+def collect(paths: Iterable[str | os.PathLike[str]]) -> xr.Dataset:
+    """Gather the scalars of scene results into one dataset; what was not run is NaN.
+
+    Parameters
+    ----------
+    paths : iterable of path-like
+        Files written by ``rubfric.write``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions scale, velocity (mm/s), pressure (MPa), aspect; ``amplitude`` and ``wavenumber`` over scale.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that cannot be read, two files of one scene, or scenes of different rubbers or planes.
+    """
+    points: dict[tuple[float, ...], dict[str, float]] = {}
+    shared: dict[str, str] = {}
+    road: dict[float, dict[str, float]] = {}
+    for path in paths:
+        point, values, common, scale = _read_scalars(path)
+        if point in points:
+            raise BrokenResult(f"{os.fspath(path)} is a second result of its scene; keep one of them")
+        if shared and shared != common:
+            raise BrokenResult(f"{os.fspath(path)} belongs to {common}, but the results before it to {shared}")
+        points[point], shared, road[point[0]] = values, common, scale
+    if not points:
+        raise BrokenResult("there are no results to collect")
+    return _assemble(points, road, shared)
+
+
+def _read_scalars(
+    path: str | os.PathLike[str],
+) -> tuple[tuple[float, ...], dict[str, float], dict[str, str], dict[str, float]]:
+    """Return a result's place on the axes, its scalars, what it shares with its campaign, and its road."""
+    try:
+        with netCDF4.Dataset(path) as stored:
+            point = tuple(float(stored.getncattr(axis)) for axis in AXES)
+            values = {name: float(stored[name][...]) for name in SCALARS}
+            common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
+            road = {name: float(stored.getncattr(name)) for name in _ROAD}
+    except (OSError, AttributeError, IndexError, KeyError, RuntimeError) as error:
+        raise BrokenResult(f"{os.fspath(path)} is no readable result: {error}; delete it and run again") from error
+    return point, values, common, road
+
+
+def _assemble(
+    points: dict[tuple[float, ...], dict[str, float]], road: dict[float, dict[str, float]], shared: dict[str, str]
+) -> xr.Dataset:
+    axes = {name: np.array(sorted({point[place] for point in points})) for place, name in enumerate(AXES)}
+    shape = tuple(len(axis) for axis in axes.values())
+    arrays = {name: np.full(shape, np.nan) for name in SCALARS}
+    for point, values in points.items():
+        index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), point, strict=True))
+        for name, value in values.items():
+            arrays[name][index] = value
+    coordinates = {name: (name, axis, _attributes(*AXES[name])) for name, axis in axes.items()}
+    coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), _attributes(*AXES["scale"]))
+    variables = {name: (tuple(AXES), array, _attributes(*SCALARS[name])) for name, array in arrays.items()}
+    for name, described in _ROAD.items():
+        variables[name] = (("scale",), np.array([road[scale][name] for scale in axes["scale"]]), _attributes(*described))
+    attributes = {
+        "title": "Friction of a rubber block over scale, speed, pressure and height-to-width ratio",
+        "Conventions": CONVENTIONS.split()[0],
+        "source": f"rubfric {__version__}",
+        "references": PAPER,
+    }
+    return xr.Dataset(variables, coords=coordinates, attrs=attributes | shared)
+
+
+def _attributes(unit: str, long_name: str) -> dict[str, str]:
+    return {"units": unit, "long_name": long_name}

@@ -1,0 +1,250 @@
+"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and what it takes to redo it."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import rubfric
+from rubfric.energy import Energies
+from rubfric.errors import BrokenResult
+from rubfric.steady import SteadySolution
+
+PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
+CONVENTIONS = "CF-1.11 UGRID-1.0"
+
+# Read once: looking versions up takes as long as a scene.
+_SOFTWARE = ", ".join(
+    [f"Python {platform.python_version()}"]
+    + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
+)
+# Above this share of the shear-wave speed inertia would matter; the model has none.
+_SPEED_LIMIT = 0.3
+# Beyond this nominal compression small strain misjudges the block by more than its material does.
+_COMPRESSION_LIMIT = 0.3
+
+# name: (unit, long name); the scalars of every result, in the order in which they are shown
+SCALARS: dict[str, tuple[str, str]] = {
+    "friction_coefficient": ("1", "friction coefficient from stress power"),
+    "friction_coefficient_dissipation": ("1", "friction coefficient from viscous dissipation"),
+    "friction_coefficient_contact": ("1", "friction coefficient from contact pressure and road slope"),
+    "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
+    "contact_fraction": ("1", "contact area over nominal area"),
+    "maximum_contact_pressure": ("MPa", "largest contact pressure"),
+    "nominal_compression": ("1", "nominal strain of the block under the load, positive in compression"),
+    "effective_poissons_ratio": ("1", "Poisson's ratio of the storage moduli at the excitation frequency"),
+    "shear_wave_speed_ratio": ("1", "sliding speed over shear-wave speed at the excitation frequency"),
+    "excitation_frequency": ("rad s-1", "angular frequency at which the road excites the rubber"),
+    "columns": ("1", "cells along one wavelength of the mesh that was solved"),
+    "rows": ("1", "cells over the height of the mesh that was solved"),
+    "contact_nodes": ("1", "surface nodes in contact"),
+    "iterations": ("1", "pivoting steps of all contact solves"),
+    "wall_time": ("s", "wall time of the solution and its energies"),
+}
+
+
+def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.Dataset:
+    """Return the dataset of a solved scene.
+
+    Parameters
+    ----------
+    wall_time : float
+        Seconds that the solution and its energies took.
+
+    Returns
+    -------
+    xarray.Dataset
+        Mesh ``mesh`` (UGRID) with ``displacement_x``, ``displacement_y`` (mm) and ``strain_energy_density``
+        (MPa) at its nodes; ``contact_pressure`` (MPa), ``gap`` and ``road_height`` (mm) along ``surface_x``;
+        ``strain_energy_density_profile`` over ``depth``; the scalars of ``SCALARS``; the scene's parameters.
+    """
+    variables = _mesh(solution, energies) | _surface(solution)
+    variables |= {name: ((), value, _attributes(*SCALARS[name])) for name, value in _scalars(solution, energies, wall_time).items()}
+    return xr.Dataset(variables, attrs=_provenance(solution))
+
+
+def _attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
+    return {"units": unit, "long_name": long_name, **more}
+
+
+def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
+    """Return the mesh of the fields: every few columns of the one solved, and the first again at the far side."""
+    block = solution.block
+    rows, columns = energies.density.shape
+    x = np.linspace(0.0, block.width, columns + 1)
+    place = {"mesh": "mesh", "location": "node"}
+    node = np.arange(rows * (columns + 1), dtype=np.int32).reshape(rows, columns + 1)
+    faces = np.stack((node[:-1, :-1], node[:-1, 1:], node[1:, 1:], node[1:, :-1]), axis=-1).reshape(-1, 4)
+
+    def around(field: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.concatenate((field, field[:, :1]), axis=1).ravel()
+
+    topology = {
+        "cf_role": "mesh_topology",
+        "long_name": "rubber block in its reference configuration, one wavelength wide, repeating along x",
+        "topology_dimension": 2,
+        "node_coordinates": "mesh_node_x mesh_node_y",
+        "face_node_connectivity": "mesh_face_nodes",
+    }
+    return {
+        "mesh": ((), np.int32(0), topology),
+        "mesh_node_x": ("node", np.tile(x, rows), _attributes("mm", "distance along the road", standard_name="projection_x_coordinate")),
+        "mesh_node_y": (
+            "node",
+            np.repeat(block.row_positions, columns + 1),
+            _attributes("mm", "height above the bottom of the block", standard_name="projection_y_coordinate"),
+        ),
+        "mesh_face_nodes": (
+            ("face", "corner"),
+            faces,
+            {"cf_role": "face_node_connectivity", "long_name": "nodes of each cell, counter-clockwise", "start_index": 0},
+        ),
+        "displacement_x": ("node", around(energies.displacement[:, 0]), _attributes("mm", "displacement along the road", **place)),
+        "displacement_y": (
+            "node",
+            around(energies.displacement[:, 1]),
+            _attributes("mm", "displacement away from the road; y + displacement_y is the height above the road's mean plane", **place),
+        ),
+        "strain_energy_density": (
+            "node",
+            around(energies.density),
+            _attributes("MPa", "strain-energy density stored in the springs (1 MPa = 1 N mm mm-3)", **place),
+        ),
+        "depth": ("depth", block.row_positions, _attributes("mm", "distance from the bottom of the block")),
+        "strain_energy_density_profile": (
+            "depth",
+            energies.depth_profile,
+            _attributes("MPa", "strain-energy density stored in the springs, mean over a wavelength"),
+        ),
+    }
+
+
+def _surface(solution: SteadySolution) -> dict[str, Any]:
+    block, road, contact = solution.block, solution.scene.road, solution.contact
+    x = block.column_positions
+    return {
+        "surface_x": ("surface_x", x, _attributes("mm", "distance along the road")),
+        "road_height": ("surface_x", road.height(x), _attributes("mm", "height of the road above its mean plane")),
+        "contact_pressure": ("surface_x", contact.pressure, _attributes("MPa", "pressure of the road on the rubber")),
+        "gap": ("surface_x", contact.gap, _attributes("mm", "height of the rubber above the road")),
+    }
+
+
+def _scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> dict[str, float | int]:
+    scene, contact = solution.scene, solution.contact
+    frequency = scene.road.excitation_frequency(scene.velocity)
+    return {
+        "friction_coefficient": energies.stress_power,
+        "friction_coefficient_dissipation": energies.dissipation,
+        "friction_coefficient_contact": energies.contact,
+        "energy_closure": energies.closure,
+        "contact_fraction": solution.contact_fraction,
+        "maximum_contact_pressure": float(contact.pressure.max()),
+        "nominal_compression": nominal_compression(solution),
+        "effective_poissons_ratio": float(scene.material.effective_poissons_ratio(frequency)),
+        "shear_wave_speed_ratio": float(scene.velocity / scene.material.shear_wave_speed(frequency)),
+        "excitation_frequency": frequency,
+        "columns": solution.block.columns,
+        "rows": solution.block.rows,
+        "contact_nodes": int(np.count_nonzero(contact.touching)),
+        "iterations": solution.iterations,
+        "wall_time": wall_time,
+    }
+
+
+def nominal_compression(solution: SteadySolution) -> float:
+    """Return p / M, the strain of the relaxed block under its load between tied sides, dimensionless."""
+    return solution.scene.pressure / solution.scene.material.confined_modulus(solution.scene.plane)
+
+
+def warnings(solution: SteadySolution) -> list[str]:
+    """Return what a reader should know before trusting the result, one sentence each; none is an error."""
+    scene = solution.scene
+    frequency = scene.road.excitation_frequency(scene.velocity)
+    poisson = float(scene.material.effective_poissons_ratio(frequency))
+    ratio = float(scene.velocity / scene.material.shear_wave_speed(frequency))
+    compression = nominal_compression(solution)
+    found = []
+    if poisson < 0.0:
+        found.append(
+            f"The effective Poisson's ratio is {poisson:.2f}: the shear modulus has risen past the constant bulk modulus; "
+            "bulk: proportional avoids this."
+        )
+    if ratio > _SPEED_LIMIT:
+        found.append(f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter.")
+    if compression > _COMPRESSION_LIMIT:
+        found.append(f"The load presses the block by {compression:.0%} of its height: small strain is only indicative here.")
+    if not solution.resolved:
+        found.append(
+            f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, "
+            f"fewer than the {scene.numerics.contact_nodes} asked for: raise numerics.columns_max."
+        )
+    return found
+
+
+def _provenance(solution: SteadySolution) -> dict[str, Any]:
+    scene = solution.scene
+    attributes: dict[str, Any] = {
+        "title": f"Steady sliding of a rubber block on a sine road: {scene.name}",
+        "Conventions": CONVENTIONS,
+        "source": f"rubfric {rubfric.__version__}",
+        "references": PAPER,
+        "kinematics": "small strain",
+        "scene": scene.name,
+        "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
+        "scene_digest": scene.digest,
+        "rubber": scene.material.name,
+        "plane": scene.plane,
+        "software": _SOFTWARE,
+        "warnings": "\n".join(warnings(solution)),
+    }
+    units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
+    attributes |= {name: getattr(scene, name) for name in units}
+    attributes |= {"amplitude": scene.road.amplitude, "wavenumber": scene.road.wavenumber}
+    attributes["units_of_attributes"] = "velocity mm s-1, pressure MPa, amplitude mm, wavenumber mm-1"
+    return attributes
+
+
+def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a dataset to a netCDF file, whole or not at all.
+
+    The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
+    name begins with a dot.
+    """
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    encoding = {
+        str(name): {"zlib": True, "complevel": 1} for name, variable in result.variables.items() if variable.size > 1
+    }
+    try:
+        result.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        os.replace(part, target)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def read(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Read a result whole into memory.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is missing, damaged, or no result of rubfric.
+    """
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as stored:
+            result = stored.load()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error
+    if "scene_digest" not in result.attrs:
+        raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
+    return result

@@ -1,0 +1,61 @@
+"""Tables of a campaign, one row per scene, units in the headings."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pandas as pd
+import xarray as xr
+
+from rubfric.multiscale import total_friction
+
+# variable: heading
+_COLUMNS = {
+    "friction_coefficient": "friction_coefficient",
+    "friction_coefficient_dissipation": "friction_coefficient_dissipation",
+    "friction_coefficient_contact": "friction_coefficient_contact",
+    "energy_closure": "energy_closure",
+    "contact_fraction": "contact_fraction",
+    "maximum_contact_pressure": "maximum_contact_pressure_MPa",
+    "nominal_compression": "nominal_compression",
+    "effective_poissons_ratio": "effective_poissons_ratio",
+    "shear_wave_speed_ratio": "shear_wave_speed_ratio",
+    "columns": "columns",
+    "rows": "rows",
+    "contact_nodes": "contact_nodes",
+}
+_WHOLE = ("columns", "rows", "contact_nodes")
+_AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
+
+
+def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
+    """Return all scenes of one scale, by aspect, pressure and speed."""
+    chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
+    table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
+    table = table.astype({name: int for name in _WHOLE})
+    return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
+
+
+def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
+    """Return the friction of every scale and their sum, by pressure and speed, where all scales were run."""
+    friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
+    total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
+    for scale in campaign["scale"].values:
+        one = friction.sel(scale=scale, drop=True)
+        total[f"friction_scale_{scale}"] = one.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
+    table = total.dropna().reset_index()
+    scales = [name for name in table.columns if name.startswith("friction_scale_")]
+    return table[["velocity", "pressure", *scales, "friction_total"]].rename(columns=_AXES)
+
+
+def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
+    """Write a table as CSV with six significant digits, whole or not at all."""
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        table.to_csv(part, index=False, float_format="%.6g")
+        os.replace(part, target)
+    finally:
+        part.unlink(missing_ok=True)
