@@ -1,0 +1,43 @@
+# Friction of rubber on rough roads: every scene, table and figure of the campaign in config/config.yaml.
+#   snakemake -j2                                       the paper
+#   snakemake -j2 --configfile config/minimal.yaml      a campaign of under a minute
+import sys
+
+from snakemake.utils import min_version, validate
+
+from rubfric.campaign import Campaign
+from rubfric.errors import InvalidInput
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml"
+
+
+# In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
+try:
+    CAMPAIGN = Campaign.from_config(config)
+except InvalidInput as error:
+    sys.exit(f"The config is wrong: {error}.")
+validate(config, "workflow/schemas/config.schema.yaml", set_default=False)
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/scenes.smk"
+include: "workflow/rules/tables.smk"
+include: "workflow/rules/figures.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        TABLES,
+        FIGURES,
+
+
+onstart:
+    jobs.warm_up()
+
+
+onsuccess:
+    print(f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes.")

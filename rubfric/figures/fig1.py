@@ -1,0 +1,56 @@
+"""Figure 1: friction over speed for blocks of several height-to-width ratios."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from rubfric.figures import panels, style
+from rubfric.figures.scaling import scale_friction, scale_speeds
+from rubfric.figures.selection import described, friction
+
+
+@style.applied()
+def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
+    """Draw the friction coefficient against speed, a line per ratio and a panel per scale and pressure.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.collection.collect``.
+    scales : sequence of int
+        Scales of the road, 1 being the coarsest.
+    pressures : sequence of float
+        Nominal pressures, MPa.
+    aspects : sequence of float
+        Heights over widths of the blocks.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    InvalidInput
+        Where the campaign lacks what is asked for.
+    """
+    places = list(product(scales, pressures))
+    lines = {
+        (place, aspect): friction(campaign, scale=place[0], pressure=place[1], aspect=aspect)
+        for place, aspect in product(places, aspects)
+    }
+    figure, axes = panels.arrange(len(places), height=2.3)
+    for panel, place in zip(axes, places, strict=True):
+        for aspect, look in zip(aspects, style.lines(len(aspects)), strict=True):
+            line = lines[place, aspect]
+            panel.plot(line["velocity"].values, line.values, label=style.written(aspect), **look)
+    scale_speeds(axes[0], campaign["velocity"].values)
+    scale_friction(axes[0], np.concatenate([line.values for line in lines.values()]))
+    panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
+    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
+    panels.legend_beside(figure, axes[0].get_lines(), "height-to-width\nratio (-)")
+    return figure

@@ -1,0 +1,108 @@
+"""Figure 2: strain-energy density of the nodes over the distance from the road."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+from numpy.typing import NDArray
+
+from rubfric.figures import panels, style
+from rubfric.figures.scaling import scale_decades
+from rubfric.figures.scenes import by_pressure_and_speed
+from rubfric.figures.selection import described
+
+Array = NDArray[np.float64]
+
+_VARIABLES = ("mesh_node_y", "strain_energy_density", "depth", "strain_energy_density_profile", "nominal_compression")
+_STEADY: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (7, 3))}
+# The ordinate begins at this fraction of the steady value: single nodes are all but unstrained.
+_LOWEST = 0.1
+
+
+@style.applied()
+def draw(results: Sequence[xr.Dataset]) -> Figure:
+    """Draw the strain-energy density against the distance from the road, a line per speed and a panel per pressure.
+
+    Parameters
+    ----------
+    results : sequence of xarray.Dataset
+        As built by ``rubfric.dataset.build``, of one scale and height-to-width ratio, at every pressure and speed.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Thick lines are means over a wavelength; bands run from the smallest to the largest value of the nodes at a
+        distance, down to a tenth of the steady value at most. A long-dashed line marks that value, p²/(2M): the density
+        of a block pressed between flat plates, M being its relaxed modulus. Distances are those before deformation.
+
+    Raises
+    ------
+    InvalidInput
+        Where the results do not fill a grid of pressures and speeds, or lack something.
+    """
+    grid = by_pressure_and_speed(results, _VARIABLES)
+    looks = style.lines(len(grid.speeds))
+    figure, axes = panels.arrange(len(grid.pressures), height=2.7, share_ordinate=False)
+    for panel, pressure in zip(axes, grid.pressures, strict=True):
+        scenes = [grid.results[pressure, speed] for speed in grid.speeds]
+        for result, look in zip(scenes, looks, strict=True):
+            _draw_scene(panel, result, look)
+        steady = 0.5 * pressure * float(scenes[0]["nominal_compression"])
+        panel.axhline(steady, gid="steady", zorder=2.5, **_STEADY)
+        _scale_density(panel, scenes, steady)
+    _scale_distance(axes[0], results)
+    panels.entitle(axes, [described(pressure=pressure) for pressure in grid.pressures])
+    panels.label(axes, "distance from the road (mm)", "strain-energy density (MPa)")
+    handles: list[Artist] = [
+        Line2D([], [], label=f"mean at {style.written(speed)} mm/s", **look)
+        for speed, look in zip(grid.speeds, looks, strict=True)
+    ]
+    handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="range of the nodes")]
+    handles += [Line2D([], [], label="steady value p²/(2M)", **_STEADY)]
+    panels.legend_above(figure, handles, None, 2 if len(axes) == 1 else 3)
+    return figure
+
+
+def _draw_scene(panel: Axes, result: xr.Dataset, look: dict[str, Any]) -> None:
+    distance, low, high = _extremes(result)
+    thin = {"color": look["color"], "linestyle": look["linestyle"], "linewidth": 0.5}
+    panel.fill_between(distance, low, high, facecolor=look["color"], alpha=0.08, linewidth=0.0, gid="range")
+    for edge in (low, high):
+        panel.plot(distance, edge, gid="edge", **thin)
+    panel.plot(
+        result["depth"].values, result["strain_energy_density_profile"].values, gid="mean", markevery=0.13, **look
+    )
+
+
+def _extremes(result: xr.Dataset) -> tuple[Array, Array, Array]:
+    """Return the distances of the rows of nodes, and the smallest and largest density in each."""
+    distance, row = np.unique(result["mesh_node_y"].values, return_inverse=True)
+    density = result["strain_energy_density"].values
+    low, high = np.full(distance.size, np.inf), np.full(distance.size, -np.inf)
+    np.minimum.at(low, row, density)
+    np.maximum.at(high, row, density)
+    return distance, low, high
+
+
+def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: float) -> None:
+    density = np.concatenate([result["strain_energy_density"].values for result in scenes])
+    positive = density[density > 0.0]
+    if positive.size == 0 or steady <= 0.0:
+        panel.set_ylim(0.0, 1.0)
+        return
+    scale_decades(panel, max(float(positive.min()) / 1.3, _LOWEST * steady), 1.3 * max(float(positive.max()), steady))
+
+
+def _scale_distance(panel: Axes, results: Sequence[xr.Dataset]) -> None:
+    panel.set_xlim(0.0, max(float(result["depth"].values.max()) for result in results))
+    panel.xaxis.set_major_locator(MaxNLocator(4))
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))

@@ -1,0 +1,94 @@
+"""Figure 3: friction over the height-to-width ratio of the block, at every speed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from rubfric.figures import panels, style
+from rubfric.figures.scaling import NEGLIGIBLE, scale_decades, scale_friction, tick_at
+from rubfric.figures.selection import described, friction
+
+Array = NDArray[np.float64]
+
+# The ratio above which the paper calls the friction stable, and which it takes for its typical block.
+TYPICAL_RATIO = 0.75
+_MARK: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (7, 3))}
+
+
+@style.applied()
+def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
+    """Draw the friction coefficient against the height-to-width ratio, a line per speed; the ratio 0.75 is marked.
+
+    The ordinate is logarithmic, so that the lines of all speeds show how much they still change; it is linear where a
+    friction coefficient is zero.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.collection.collect``.
+    scales : sequence of int
+        Scales of the road, 1 being the coarsest; a panel for each and each pressure.
+    pressures : sequence of float
+        Nominal pressures, MPa.
+    aspects : sequence of float
+        Heights over widths of the blocks.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    InvalidInput
+        Where the campaign lacks what is asked for.
+    """
+    places = list(product(scales, pressures))
+    ratios = np.sort(np.asarray(aspects, dtype=np.float64))
+    speeds = np.sort(campaign["velocity"].values)
+    tables = [_table(campaign, scale, pressure, ratios) for scale, pressure in places]
+    looks = style.lines(speeds.size)
+    figure, axes = panels.arrange(len(places), height=2.7)
+    for panel, table in zip(axes, tables, strict=True):
+        for values, look in zip(table.T, looks, strict=True):
+            panel.plot(ratios, values, **look)
+        panel.axvline(TYPICAL_RATIO, zorder=0.5, gid="typical", **_MARK)
+    _scale_ratios(axes[0], ratios)
+    _scale_ordinate(axes[0], np.concatenate(tables))
+    panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
+    panels.label(axes, "height-to-width ratio (-)", "friction coefficient (-)")
+    handles = [
+        Line2D([], [], label=style.written(float(speed)), **look) for speed, look in zip(speeds, looks, strict=True)
+    ]
+    panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
+    return figure
+
+
+def _table(campaign: xr.Dataset, scale: int, pressure: float, ratios: Array) -> Array:
+    """Return friction over ratio and speed."""
+    rows = [friction(campaign, scale=scale, pressure=pressure, aspect=float(ratio)).values for ratio in ratios]
+    return np.stack(rows)
+
+
+def _scale_ratios(panel: Axes, ratios: Array) -> None:
+    low, high = min(ratios[0], TYPICAL_RATIO), max(ratios[-1], TYPICAL_RATIO)
+    margin = 0.06 * (high - low) if high > low else 0.25
+    panel.set_xlim(low - margin, high + margin)
+    tick_at(panel.xaxis, sorted({*ratios.tolist(), TYPICAL_RATIO}))
+
+
+def _scale_ordinate(panel: Axes, values: Array) -> None:
+    finite = values[np.isfinite(values)]
+    low, high = float(finite.min()), float(finite.max())
+    if low > NEGLIGIBLE:
+        scale_decades(panel, low / 1.3, high * 1.3)
+    else:
+        scale_friction(panel, values)

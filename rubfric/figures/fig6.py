@@ -1,0 +1,66 @@
+"""Figure 6: friction over speed and pressure at each scale of the road."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from rubfric.figures import panels, style
+from rubfric.figures.peaks import mark_peak, peak_handle
+from rubfric.figures.scaling import scale_friction, scale_speeds
+from rubfric.figures.selection import friction
+
+
+@style.applied()
+def draw(campaign: xr.Dataset, aspect: float) -> Figure:
+    """Draw the friction coefficient against speed, a line per pressure and a panel per scale, the finest first.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.collection.collect``; pressures at which no block of this ratio was run are left out.
+    aspect : float
+        Height over width of the blocks.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Rings mark the largest of the sampled points of a line, where it lies between others.
+
+    Raises
+    ------
+    InvalidInput
+        Where the campaign lacks the ratio, or has nothing at one of the scales.
+    """
+    grid = friction(campaign, aspect=aspect).dropna("pressure", how="all")
+    scales = [int(scale) for scale in grid["scale"].values[::-1]]
+    pressures = [float(pressure) for pressure in grid["pressure"].values]
+    speeds = grid["velocity"].values
+    fields = [friction(campaign, aspect=aspect, scale=scale) for scale in scales]
+    looks = style.lines(len(pressures))
+    figure, axes = panels.arrange(len(scales), height=2.1)
+    for (panel, field), (pressure, look) in product(zip(axes, fields, strict=True), zip(pressures, looks, strict=True)):
+        line = field.sel(pressure=pressure)
+        if line.notnull().any():
+            panel.plot(speeds, line.values, **look)
+            mark_peak(panel, speeds, line.values, look["color"])
+    scale_speeds(axes[0], speeds)
+    scale_friction(axes[0], grid.values)
+    panels.entitle(axes, _titles(scales))
+    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
+    handles = [
+        Line2D([], [], label=style.written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)
+    ]
+    panels.legend_beside(figure, [*handles, peak_handle()], "nominal pressure\n(MPa)")
+    return figure
+
+
+def _titles(scales: list[int]) -> list[str]:
+    """Return the names of scales from fine to coarse; the finest of several is the paper's micro-scale."""
+    titles = [f"scale {scale}" for scale in scales]
+    if len(scales) > 1:
+        titles[0] = f"micro-scale ({titles[0]})"
+    return titles

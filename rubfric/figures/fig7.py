@@ -1,0 +1,106 @@
+"""Figure 7: the friction of the whole road at one pressure, and what each scale adds to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import panels, style
+from rubfric.figures.peaks import mark_peak, peak_handle
+from rubfric.figures.scaling import scale_friction, scale_speeds
+from rubfric.figures.selection import described, friction
+from rubfric.multiscale import total_friction
+
+_HEIGHT = 2.9
+# A speed without a neighbour is drawn this far to either side, as a factor.
+_ALONE = 1.25
+
+
+@style.applied()
+def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
+    """Draw the sum of the scales' friction coefficients against speed, and each scale's share as an area.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.collection.collect``; a speed at which any scale is missing is a gap.
+    aspect : float
+        Height over width of the blocks.
+    pressure : float
+        Nominal pressure, MPa.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The finest scale lies at the bottom. A ring marks the largest of the sampled totals, where it lies
+        between others.
+
+    Raises
+    ------
+    InvalidInput
+        Where the campaign lacks the ratio or the pressure, or has no speed at which all scales were run.
+    """
+    shares = (
+        friction(campaign, aspect=aspect, pressure=pressure)
+        .transpose("scale", "velocity")
+        .sortby("scale", ascending=False)
+    )
+    total = total_friction(shares).values
+    if not bool(np.isfinite(total).any()):
+        place = described(pressure=pressure, aspect=aspect)
+        raise InvalidInput(
+            f"the campaign has no speed at which all scales were run at {place}, so there is no total to draw"
+        )
+    speeds = shares["velocity"].values
+    figure = Figure(figsize=(style.COLUMN, _HEIGHT), layout="constrained")
+    axes = figure.subplots()
+    patches = _stack(axes, speeds, shares)
+    (line,) = axes.plot(speeds, total, color="black", linewidth=1.7, marker="o", label="total", zorder=3, clip_on=False)
+    mark_peak(axes, speeds, total, "black")
+    scale_speeds(axes, speeds)
+    scale_friction(axes, total)
+    axes.set_xlabel("sliding speed (mm/s)")
+    axes.set_ylabel("friction coefficient (-)")
+    panels.legend_above(figure, [line, peak_handle(), *patches[::-1]], described(pressure=pressure, aspect=aspect), 3)
+    return figure
+
+
+def _stack(axes: Axes, speeds: NDArray[np.float64], shares: xr.DataArray) -> list[Patch]:
+    """Draw the areas one upon the other, and return their entries in the legend."""
+    edges = np.cumsum(np.vstack((np.zeros_like(speeds), shares.values)), axis=0)
+    known = np.isfinite(edges[-1])
+    patches = []
+    for place, (scale, colour) in enumerate(zip(shares["scale"].values, _tints(shares.sizes["scale"]), strict=True)):
+        look: dict[str, Any] = {
+            "facecolor": colour,
+            "edgecolor": "0.15",
+            "hatch": style.HATCHES[place % len(style.HATCHES)],
+            "linewidth": 0.5,
+        }
+        for run in _runs(known):
+            x, low, high = speeds[run], edges[place][run], edges[place + 1][run]
+            if x.size == 1:
+                x, low, high = x * np.array([1.0 / _ALONE, _ALONE]), low.repeat(2), high.repeat(2)
+            axes.fill_between(x, low, high, gid=f"scale {scale}", **look)
+        patches.append(Patch(label=f"scale {scale}", **look))
+    return patches
+
+
+def _runs(known: NDArray[np.bool_]) -> Iterator[slice]:
+    """Yield the stretches of neighbouring speeds that are known."""
+    steps = np.flatnonzero(np.diff(np.concatenate(([False], known, [False])).astype(np.int8)))
+    for start, stop in zip(steps[::2], steps[1::2], strict=True):
+        yield slice(int(start), int(stop))
+
+
+def _tints(count: int) -> list[tuple[float, ...]]:
+    """Return the shared colours mixed with white, so that hatches and lines show on them."""
+    return [tuple(0.45 * np.asarray(colour[:3]) + 0.55) for colour in style.colours(count)]

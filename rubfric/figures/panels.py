@@ -1,0 +1,72 @@
+"""Panels of a figure: their arrangement, headings, shared labels and legend."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from string import ascii_lowercase
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rubfric.errors import InvalidInput
+from rubfric.figures.style import COLUMN, DOUBLE_COLUMN
+
+_MOST_COLUMNS = 3
+
+
+def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Figure, list[Axes]]:
+    """Return a figure of panels with one abscissa, at most three in a row (two of four), none of them empty.
+
+    Parameters
+    ----------
+    count : int
+        Number of panels.
+    height : float
+        Height of a row, in inches.
+    share_ordinate : bool
+        Whether all panels have one ordinate too.
+    """
+    if count < 1:
+        raise InvalidInput("the figure has 0 panels, but must show at least one scale and pressure")
+    columns = 2 if count == 4 else min(count, _MOST_COLUMNS)
+    rows = -(-count // columns)
+    size = (COLUMN if columns == 1 else DOUBLE_COLUMN, height * rows)
+    figure = Figure(figsize=size, layout="constrained")
+    axes: list[Axes] = list(figure.subplots(rows, columns, sharex=True, sharey=share_ordinate, squeeze=False).flat)
+    for spare in axes[count:]:
+        spare.remove()
+    for bottom in axes[max(count - columns, 0) : count]:
+        bottom.tick_params(labelbottom=True)
+    return figure, axes[:count]
+
+
+def label(axes: Sequence[Axes], abscissa: str, ordinate: str) -> None:
+    """Label the panels that ``arrange`` returned: the lowest of each column, the first of each row."""
+    columns = 2 if len(axes) == 4 else min(len(axes), _MOST_COLUMNS)
+    for panel in axes[max(len(axes) - columns, 0) :]:
+        panel.set_xlabel(abscissa)
+    for panel in axes[::columns]:
+        panel.set_ylabel(ordinate)
+
+
+def entitle(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Write a letter and a title above each panel, at the left; one panel alone has no letter."""
+    for place, (panel, title) in enumerate(zip(axes, titles, strict=True)):
+        panel.set_title(title if len(axes) == 1 else f"{letter(place)} {title}", loc="left")
+
+
+def letter(place: int) -> str:
+    """Return the letter of a panel, counted from zero: (a) to (z), then (aa)."""
+    before = ascii_lowercase[place // 26 - 1] if place >= 26 else ""
+    return f"({before}{ascii_lowercase[place % 26]})"
+
+
+def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:
+    """Put one legend for all panels at the right of them, where it covers no data."""
+    figure.legend(handles=list(handles), title=title, loc="outside right upper", alignment="left")
+
+
+def legend_above(figure: Figure, handles: Sequence[Any], title: str | None, columns: int) -> None:
+    """Put one legend for all panels above them, in rows of some columns."""
+    figure.legend(handles=list(handles), title=title, loc="outside upper center", ncols=columns)

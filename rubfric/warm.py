@@ -1,0 +1,41 @@
+"""Imported by the fork server of the jobs: everything that a job needs, imported and used once.
+
+Much of the scientific stack loads itself only on first use; what is loaded here, no job has to load again.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import tempfile
+from importlib import import_module
+from pathlib import Path
+
+import rubfric.collection
+import rubfric.tables
+from rubfric.dataset import write
+from rubfric.material import Material
+from rubfric.road import SineScale
+from rubfric.scene import Numerics, Scene
+from rubfric.simulation import simulate
+
+
+def _use_everything() -> None:
+    rubber = Material("warm", 1.0, 0.4, (0.5,), (1.0,))
+    numerics = Numerics(contact_nodes=4, columns_min=8, row_growth=2.0, output_columns=8)
+    scene = Scene(1, SineScale(0.1, 1.0), 1.0, 0.01, 0.5, rubber, "stress", numerics)
+    with tempfile.TemporaryDirectory() as folder:
+        write(simulate(scene), Path(folder) / "warm.nc")
+    for figure in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7"):
+        import_module(f"rubfric.figures.{figure}")
+    from matplotlib.figure import Figure
+
+    for kind in ("pdf", "png"):
+        drawn = Figure()
+        drawn.add_subplot().plot([0, 1], label="1")
+        drawn.savefig(io.BytesIO(), format=kind)
+
+
+# Whatever is wrong here is wrong in the jobs too, which can say so.
+with contextlib.suppress(Exception):
+    _use_everything()

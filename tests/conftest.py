@@ -1,0 +1,72 @@
+"""Fixtures for all tests: strict floating point, a seeded generator, the paper's rubber and road."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+
+from rubfric.material import Material
+from rubfric.road import SineScale
+from rubfric.scene import Numerics, Scene
+
+# Zhou, Wang and Wei 2019, Table 1: shares of the instantaneous shear modulus, and relaxation times in s.
+TABLE_1_FRACTIONS = (0.000592717, 0.002536278, 0.024459921, 0.17432432, 0.387971288, 0.408678482)
+TABLE_1_TIMES = (0.01134034, 0.0002628, 1.316e-05, 1.295e-06, 7.708e-08, 4.2e-10)
+# The same, section 3.2: amplitude in mm and wavenumber in 1/mm, from coarse to fine.
+SCALES = ((0.015, 35.0), (0.006, 80.0), (0.003, 200.0), (0.002, 300.0))
+
+SceneMaker = Callable[..., Scene]
+
+
+@pytest.fixture(autouse=True)
+def strict_floating_point() -> Iterator[None]:
+    """Turn overflow, invalid operations and division by zero into failures; underflow is harmless."""
+    with np.errstate(all="raise", under="ignore"):
+        yield
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(20190923)
+
+
+@pytest.fixture(scope="session")
+def paper_rubber() -> Material:
+    return Material(
+        name="table1",
+        youngs_modulus=4.17,
+        poissons_ratio=0.49,
+        shear_fractions=TABLE_1_FRACTIONS,
+        relaxation_times=TABLE_1_TIMES,
+        moduli="long_term",
+        bulk="elastic",
+    )
+
+
+@pytest.fixture(scope="session")
+def elastic_rubber() -> Material:
+    return Material("elastic", youngs_modulus=4.17, poissons_ratio=0.49, shear_fractions=(), relaxation_times=())
+
+
+@pytest.fixture(scope="session")
+def paper_road() -> tuple[SineScale, ...]:
+    return tuple(SineScale(amplitude, wavenumber) for amplitude, wavenumber in SCALES)
+
+
+@pytest.fixture(scope="session")
+def paper_scene(paper_rubber: Material, paper_road: tuple[SineScale, ...]) -> SceneMaker:
+    """Return a function that builds scenes on the paper's road; anything may be overridden."""
+
+    def build(velocity: float, pressure: float, scale: int = 1, **changes: object) -> Scene:
+        given: dict[str, object] = {
+            "road": paper_road[scale - 1],
+            "aspect": 0.75,
+            "material": paper_rubber,
+            "plane": "strain",
+            "numerics": Numerics(),
+        }
+        return Scene(scale=scale, velocity=velocity, pressure=pressure, **{**given, **changes})
+
+    return build

@@ -1,0 +1,153 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from rubfric.errors import InvalidInput
+from rubfric.material import Material
+from rubfric.road import SineScale
+from rubfric.scene import Numerics, Scene
+
+SceneMaker = Callable[..., Scene]
+
+
+def test_name_is_canonical(paper_scene: SceneMaker) -> None:
+    assert paper_scene(100, 5, plane="stress").name == "scale1_v100_p5_aspect0.75_stress"
+    assert paper_scene(0.1, 0.1 + 0.2, scale=4).name == "scale4_v0.1_p0.3_aspect0.75_strain"
+    assert paper_scene(1e4, 1e-9).name == "scale1_v10000_p1e-9_aspect0.75_strain"
+
+
+def test_height_follows_from_aspect_and_wavelength(paper_scene: SceneMaker) -> None:
+    assert paper_scene(1.0, 5.0).height == pytest.approx(0.75 * 0.17951958, rel=1e-7)
+
+
+def test_equal_scenes_are_equal_and_hash_alike(paper_scene: SceneMaker) -> None:
+    one, two = paper_scene(0.1 + 0.2, 5), paper_scene(0.3, 5.0)
+    assert one == two
+    assert hash(one) == hash(two)
+    assert one.name == two.name
+    assert one.digest == two.digest
+
+
+def test_parameters_survive_json(paper_scene: SceneMaker) -> None:
+    scene = paper_scene(0.1, 5.0, scale=3, numerics=Numerics(contact_nodes=32, row_growth=1.1))
+    read = Scene.from_parameters(json.loads(json.dumps(scene.parameters())))
+    assert read == scene
+    assert read.digest == scene.digest
+
+
+def test_parameters_are_plain(paper_scene: SceneMaker) -> None:
+    parameters = paper_scene(1.0, 5.0).parameters()
+    assert parameters["road"] == {"amplitude": 0.015, "wavenumber": 35.0}
+    assert parameters["material"]["relaxation_times"][0] == 0.01134034
+    assert isinstance(parameters["material"]["shear_fractions"], list)
+    assert parameters["numerics"]["contact_nodes"] == 64
+
+
+def test_from_parameters_leaves_its_argument_alone(paper_scene: SceneMaker) -> None:
+    parameters = paper_scene(1.0, 5.0).parameters()
+    before = json.dumps(parameters, sort_keys=True)
+    Scene.from_parameters(parameters)
+    assert json.dumps(parameters, sort_keys=True) == before
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"scale": 2},
+        {"road": SineScale(0.0151, 35.0)},
+        {"road": SineScale(0.015, 35.1)},
+        {"velocity": 1.01},
+        {"pressure": 5.01},
+        {"aspect": 0.76},
+        {"plane": "stress"},
+        {"numerics": Numerics(contact_nodes=65)},
+        {"numerics": Numerics(columns_min=264)},
+        {"numerics": Numerics(columns_max=1024)},
+        {"numerics": Numerics(row_growth=1.16)},
+        {"numerics": Numerics(first_row=0.9)},
+        {"numerics": Numerics(output_columns=64)},
+    ],
+)
+def test_digest_changes_with_the_scene(paper_scene: SceneMaker, change: dict[str, object]) -> None:
+    scene = paper_scene(1.0, 5.0)
+    other = replace(scene, **change)
+    assert other.digest != scene.digest
+    assert other != scene
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"name": "other"},
+        {"youngs_modulus": 4.18},
+        {"poissons_ratio": 0.48},
+        {"shear_fractions": (0.1,) * 6},
+        {"relaxation_times": (1.0,) * 6},
+        {"moduli": "instantaneous"},
+        {"bulk": "proportional"},
+        {"density": 1.0e-9},
+    ],
+)
+def test_digest_changes_with_the_rubber(
+    paper_scene: SceneMaker, paper_rubber: Material, change: dict[str, object]
+) -> None:
+    scene = paper_scene(1.0, 5.0)
+    assert replace(scene, material=replace(paper_rubber, **change)).digest != scene.digest
+
+
+def test_digest_is_a_sha256(paper_scene: SceneMaker) -> None:
+    assert len(bytes.fromhex(paper_scene(1.0, 5.0).digest)) == 32
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        ({"velocity": 0.0}, r"^velocity is 0 mm/s, but must be greater than 0$"),
+        ({"velocity": "1e3"}, r"^velocity is the text '1e3', .*write 1\.0e\+3\)$"),
+        ({"pressure": -5.0}, r"^pressure is -5 MPa, but must be greater than 0$"),
+        ({"pressure": float("nan")}, r"^pressure is nan, but must be a finite number$"),
+        ({"aspect": 0}, r"^aspect is 0, but must be greater than 0$"),
+        ({"scale": 0}, r"^scale is 0, but must be a whole number of at least 1$"),
+        ({"scale": 1.5}, r"^scale is 1\.5, but must be a whole number of at least 1$"),
+        ({"plane": "strian"}, r"^plane is 'strian', but must be one of stress, strain \(did you mean strain\?\)$"),
+    ],
+)
+def test_bad_scenes_are_refused(paper_scene: SceneMaker, change: dict[str, object], complaint: str) -> None:
+    with pytest.raises(InvalidInput, match=complaint):
+        replace(paper_scene(1.0, 5.0), **change)
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        ({"contact_nodes": 3}, r"^numerics\.contact_nodes is 3, but must be a whole number of at least 4$"),
+        ({"columns_min": 100}, r"^numerics\.columns_min is 100, but must be a multiple of 8$"),
+        ({"columns_max": 8.5}, r"^numerics\.columns_max is 8\.5, but must be a whole number"),
+        ({"columns_max": 128}, r"^numerics\.columns_max is 128, but must be at least 256$"),
+        ({"output_columns": 0}, r"^numerics\.output_columns is 0, but must be a whole number"),
+        ({"row_growth": 1.0}, r"^numerics\.row_growth is 1, but must lie between 1 and 3, both excluded$"),
+        ({"row_growth": 3.0}, r"^numerics\.row_growth is 3, but must lie between 1 and 3, both excluded$"),
+        ({"first_row": 0.0}, r"^numerics\.first_row is 0, but must be greater than 0$"),
+        ({"first_row": "1e0"}, r"^numerics\.first_row is the text '1e0'"),
+    ],
+)
+def test_bad_numerics_are_refused(change: dict[str, object], complaint: str) -> None:
+    with pytest.raises(InvalidInput, match=complaint):
+        Numerics(**change)
+
+
+@pytest.mark.xfail(raises=(KeyError, TypeError), strict=True, reason="keys of parameters are not checked yet")
+@pytest.mark.parametrize("part", ["road", "material", "numerics"])
+@pytest.mark.parametrize("missing", [True, False])
+def test_parameters_with_missing_or_unknown_keys_are_refused(paper_scene: SceneMaker, part: str, missing: bool) -> None:
+    parameters = paper_scene(1.0, 5.0).parameters()
+    if missing:
+        del parameters[part]
+    else:
+        parameters[part]["colour"] = "black"
+    with pytest.raises(InvalidInput, match=part if missing else "colour"):
+        Scene.from_parameters(parameters)

@@ -1,0 +1,66 @@
+"""Three routes to one friction coefficient, from light loads to filled roads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from rubfric.energy import evaluate
+from rubfric.material import Material
+from rubfric.scene import Numerics, Scene
+from rubfric.steady import solve
+
+SceneMaker = Callable[..., Scene]
+PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+SCALES = pytest.mark.parametrize("scale", [1, 4])
+WORST = 5e-3
+
+
+@PLANES
+@SCALES
+@pytest.mark.parametrize("velocity", [0.1, 10.0, 1000.0, 1e4])
+def test_routes_agree_whatever_the_load(paper_scene: SceneMaker, plane: str, scale: int, velocity: float) -> None:
+    fractions = []
+    for pressure in (0.02, 0.2, 1.0, 5.0, 20.0):
+        solution = solve(paper_scene(velocity, pressure, scale=scale, plane=plane))
+        result = evaluate(solution)
+        assert result.stress_power > 0.0
+        assert result.closure < WORST
+        fractions.append(solution.contact_fraction)
+    assert fractions[0] < 0.1
+
+
+@PLANES
+@pytest.mark.parametrize(("velocity", "pressure", "largest"), [(1000.0, 0.05, 0.02), (100.0, 0.001, 0.004)])
+def test_routes_agree_in_the_tiniest_contacts(
+    paper_scene: SceneMaker, plane: str, velocity: float, pressure: float, largest: float
+) -> None:
+    solution = solve(paper_scene(velocity, pressure, plane=plane))
+    assert solution.contact_fraction < largest
+    assert evaluate(solution).closure < WORST
+
+
+@PLANES
+def test_routes_agree_for_relaxing_bulk_and_for_other_aspects(
+    paper_scene: SceneMaker, paper_rubber: Material, plane: str
+) -> None:
+    rubber = replace(paper_rubber, bulk="proportional")
+    for aspect in (0.1, 0.25, 3.0):
+        for pressure in (0.05, 5.0):
+            scene = paper_scene(1000.0, pressure, plane=plane, aspect=aspect, material=rubber)
+            assert evaluate(solve(scene)).closure < WORST
+
+
+@PLANES
+def test_routes_of_a_filled_road_agree_to_round_off(paper_scene: SceneMaker, plane: str) -> None:
+    assert evaluate(solve(paper_scene(10.0, 5.0, plane=plane))).closure < 1e-11
+
+
+@PLANES
+def test_closure_tells_a_coarse_mesh(paper_scene: SceneMaker, plane: str) -> None:
+    coarse = Numerics(columns_min=16, columns_max=16, output_columns=16)
+    solution = solve(paper_scene(1000.0, 5.0, plane=plane, numerics=coarse))
+    assert not solution.resolved
+    assert evaluate(solution).closure > 0.01

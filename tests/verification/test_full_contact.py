@@ -1,0 +1,75 @@
+"""Full contact: friction and pressure of the finite-element block against the closed form of the layer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from rubfric import reference
+from rubfric.energy import Energies, evaluate
+from rubfric.scene import Numerics, Scene
+from rubfric.steady import SteadySolution, solve
+
+SceneMaker = Callable[..., Scene]
+PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+ASPECTS = pytest.mark.parametrize("aspect", [0.25, 0.5, 0.75, 1.0, 2.0])
+VELOCITIES = (1e-3, 1.0, 10.0, 100.0, 1e3, 1e4)  # mm/s
+FINER = Numerics(row_growth=1.05)
+
+
+def filled(
+    paper_scene: SceneMaker, plane: str, aspect: float, velocity: float, numerics: Numerics
+) -> tuple[Scene, SteadySolution, Energies]:
+    """Solve a scene just above the pressure that fills the road."""
+    scene = paper_scene(velocity, 1.0, plane=plane, aspect=aspect, numerics=numerics)
+    fills = reference.full_contact_pressure(scene.material, scene.road, velocity, scene.height, plane)
+    scene = paper_scene(velocity, 1.05 * fills, plane=plane, aspect=aspect, numerics=numerics)
+    solution = solve(scene)
+    assert solution.contact_fraction == 1.0
+    return scene, solution, evaluate(solution)
+
+
+def expected_friction(scene: Scene) -> float:
+    return reference.full_contact_friction(
+        scene.material, scene.road, scene.velocity, scene.pressure, scene.height, scene.plane
+    )
+
+
+@PLANES
+@ASPECTS
+def test_friction_to_a_thousandth_with_graded_rows_of_five_percent(
+    paper_scene: SceneMaker, plane: str, aspect: float
+) -> None:
+    for velocity in VELOCITIES:
+        scene, _, result = filled(paper_scene, plane, aspect, velocity, FINER)
+        for route in (result.stress_power, result.dissipation, result.contact):
+            assert route == pytest.approx(expected_friction(scene), rel=1e-3)
+
+
+@PLANES
+@ASPECTS
+def test_default_mesh_errs_by_three_thousandths_at_most(paper_scene: SceneMaker, plane: str, aspect: float) -> None:
+    limit = 3.3e-3 if aspect == 0.25 else 2e-3
+    for velocity in VELOCITIES:
+        scene, _, result = filled(paper_scene, plane, aspect, velocity, Numerics())
+        assert result.stress_power == pytest.approx(expected_friction(scene), rel=limit)
+
+
+@PLANES
+def test_pressure_follows_the_closed_form_and_vanishes_at_one_place_when_the_road_just_fills(
+    paper_scene: SceneMaker, plane: str
+) -> None:
+    scene, solution, _ = filled(paper_scene, plane, 0.75, 100.0, FINER)
+    compliance = reference.layer_compliance(scene.material, scene.road, 100.0, scene.height, plane, [1])[0]
+    phase = 35.0 * solution.block.column_positions
+    expected = scene.pressure + np.imag(scene.road.amplitude / compliance * np.exp(1j * phase))
+    np.testing.assert_allclose(solution.contact.pressure, expected, atol=1e-3 * scene.pressure)
+    assert solution.contact.pressure.min() == pytest.approx(0.05 / 1.05 * scene.pressure, abs=1e-3 * scene.pressure)
+
+
+@PLANES
+def test_friction_of_a_filled_road_falls_as_one_over_pressure(paper_scene: SceneMaker, plane: str) -> None:
+    one, two = (evaluate(solve(paper_scene(10.0, pressure, plane=plane))).stress_power for pressure in (10.0, 20.0))
+    assert one / two == pytest.approx(2.0, rel=1e-12)

@@ -1,0 +1,23 @@
+# What all rules share: paths, the names of rubber and road, and how a job runs.
+from rubfric import jobs
+from rubfric.sources import sources
+
+RESULTS = CAMPAIGN.results
+RUBBER = CAMPAIGN.material.name
+ROAD = CAMPAIGN.road_name
+
+
+wildcard_constraints:
+    scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
+    scale=r"\d+",
+    figure=r"\w+",
+
+
+def package_files(*modules):
+    """Return the package's files behind some modules: a job that lists them reruns when their content changes."""
+    return [os.path.relpath(path) for path in sources(*modules)]
+
+
+def scene_file(name):
+    """Return where the result of a scene belongs."""
+    return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"

@@ -1,0 +1,75 @@
+# The paper's figures: name, then the arguments of its draw function. Figs 2 and 4 show the fields of a few scenes.
+STUDY = {
+    "scales": list(CAMPAIGN.aspect_study.scales),
+    "pressures": list(CAMPAIGN.aspect_study.pressures),
+    "aspects": list(CAMPAIGN.aspect_study.aspects),
+}
+CAMPAIGN_FIGURES = {
+    "fig1": STUDY,
+    "fig3": STUDY,
+    "fig6": {"aspect": CAMPAIGN.aspect},
+    "fig7": {"aspect": CAMPAIGN.aspect, "pressure": CAMPAIGN.figures.total_pressure},
+}
+FIELD_FIGURES = ["fig2", "fig4"]
+FIGURES = [
+    f"{RESULTS}/figures/{figure}.{kind}"
+    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES])
+    for kind in ("pdf", "png")
+]
+
+
+rule campaign_figure:
+    input:
+        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        script="workflow/scripts/draw_figure.py",
+        results=rules.campaign.output[0],
+    output:
+        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
+        png=f"{RESULTS}/figures/{{figure}}.png",
+    wildcard_constraints:
+        figure="|".join(CAMPAIGN_FIGURES),
+    log:
+        f"{RESULTS}/logs/figures/{{figure}}.log",
+    params:
+        choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
+    message:
+        "Drawing {wildcards.figure}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            figure=wildcards.figure,
+            results=input.results,
+            choice=params.choice,
+            outputs=list(output),
+        )
+
+
+rule field_figure:
+    input:
+        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        script="workflow/scripts/draw_figure.py",
+        results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
+    output:
+        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
+        png=f"{RESULTS}/figures/{{figure}}.png",
+    wildcard_constraints:
+        figure="|".join(FIELD_FIGURES),
+    log:
+        f"{RESULTS}/logs/figures/{{figure}}.log",
+    message:
+        "Drawing {wildcards.figure}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            figure=wildcards.figure,
+            results=list(input.results),
+            choice={},
+            outputs=list(output),
+        )
+
+
+rule figures:
+    input:
+        FIGURES,

@@ -1,0 +1,33 @@
+# One job per scene. All that a scene depends on stands in its params and in the package files it lists.
+SCENES = CAMPAIGN.scenes()
+
+
+rule scene:
+    input:
+        package_files("rubfric.simulation"),
+        script="workflow/scripts/simulate_scene.py",
+    output:
+        scene_file("{scene}"),
+    log:
+        f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
+    params:
+        parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
+    message:
+        "{wildcards.scene}"
+    run:
+        jobs.run(input.script, log[0], output=output[0], parameters=params.parameters)
+
+
+rule campaign:
+    input:
+        package_files("rubfric.collection"),
+        script="workflow/scripts/collect_campaign.py",
+        scenes=[scene_file(name) for name in SCENES],
+    output:
+        f"{RESULTS}/campaign.nc",
+    log:
+        f"{RESULTS}/logs/campaign.log",
+    message:
+        "Collecting all scenes in {output}"
+    run:
+        jobs.run(input.script, log[0], output=output[0], scenes=list(input.scenes))

@@ -1,0 +1,9 @@
+"""Collect the scalars of all scenes."""
+
+from rubfric.collection import collect
+from rubfric.dataset import write
+
+
+def main(output: str, scenes: list[str]) -> None:
+    """Gather the results in the files ``scenes`` into the netCDF file ``output``."""
+    write(collect(scenes), output)

@@ -1,0 +1,15 @@
+"""Simulate one scene and write its result."""
+
+from typing import Any
+
+from rubfric.dataset import write
+from rubfric.scene import Scene
+from rubfric.simulation import simulate
+from rubfric.summary import summary
+
+
+def main(output: str, parameters: dict[str, Any]) -> None:
+    """Simulate the scene that ``parameters`` describe into the netCDF file ``output``."""
+    result = simulate(Scene.from_parameters(parameters))
+    write(result, output)
+    print(summary(result))
