@@ -20,12 +20,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from skfem import Basis, BilinearForm, ElementQuad1, MeshQuad
 from skfem.helpers import grad
 
-Real = NDArray[np.float64]
+from rubfric.arrays import Real, Whole
 
 FEWEST_ROWS = 8
 
@@ -126,11 +125,11 @@ class Block:
 
     @property
     def column_positions(self) -> Real:
-        """x of the columns of nodes, mm, shape (columns,); the block repeats after ``width``."""
+        """X of the columns of nodes, mm, shape (columns,); the block repeats after ``width``."""
         return self.column_width * np.arange(self.columns)
 
     @property
-    def harmonics(self) -> NDArray[np.int64]:
+    def harmonics(self) -> Whole:
         """0 ... columns / 2, the harmonics that the mesh can carry."""
         return np.arange(self.columns // 2 + 1)
 
@@ -233,7 +232,7 @@ def _fourier(blocks: Real) -> Real:
     return np.stack(((same + across) * straight, -across * straight, (forward - backward) * mixed))
 
 
-def _unit_square() -> tuple[MeshQuad, NDArray[np.int64]]:
+def _unit_square() -> tuple[MeshQuad, Whole]:
     """Return the unit square as a mesh of one cell, and its nodes left low, right low, left high, right high."""
     mesh = MeshQuad.init_tensor(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
     return mesh, np.lexsort(mesh.p)

@@ -149,9 +149,7 @@ class Campaign:
         for scale, velocity, pressure in product(self.scales, self.velocities, self.pressures):
             yield self.scene(scale, velocity, pressure)
         study = self.aspect_study
-        for scale, velocity, pressure, aspect in product(
-            study.scales, self.velocities, study.pressures, study.aspects
-        ):
+        for scale, velocity, pressure, aspect in product(study.scales, self.velocities, study.pressures, study.aspects):
             yield self.scene(scale, velocity, pressure, aspect)
 
     def field_scenes(self) -> dict[str, Scene]:
@@ -228,9 +226,7 @@ def _read_aspect_study(entry: Any, scales: int) -> AspectStudy:
     )
 
 
-def _read_figures(
-    entry: Any, scales: int, velocities: tuple[float, ...], pressures: tuple[float, ...]
-) -> FigureChoice:
+def _read_figures(entry: Any, scales: int, velocities: tuple[float, ...], pressures: tuple[float, ...]) -> FigureChoice:
     checks.known_keys("figures", entry, ("total_pressure", "fields"), ("total_pressure", "fields"))
     keys = ("scale", "velocities", "pressures")
     chosen = checks.known_keys("figures.fields", entry["fields"], keys, keys)

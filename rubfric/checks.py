@@ -21,7 +21,7 @@ def number(key: str, value: Any) -> float:
     """Return ``value`` as a canonical finite float, or raise InvalidInput naming ``key``."""
     if isinstance(value, str):
         raise InvalidInput(f"{key} is the text {value!r}, but must be a number{_yaml_hint(value)}")
-    if isinstance(value, bool) or not isinstance(value, (int, float)) and not hasattr(value, "__float__"):
+    if isinstance(value, bool) or (not isinstance(value, (int, float)) and not hasattr(value, "__float__")):
         raise InvalidInput(f"{key} is {value!r}, but must be a number")
     converted = float(value)
     if not math.isfinite(converted):
@@ -114,7 +114,9 @@ def grid(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
     seen: dict[float, int] = {}
     for index, value in enumerate(numbers):
         if value in seen:
-            raise InvalidInput(f"{key}[{index}] is {value:g}{_unit(unit)}, the same number as {key}[{seen[value]}]; each may stand once")
+            raise InvalidInput(
+                f"{key}[{index}] is {value:g}{_unit(unit)}, the same as {key}[{seen[value]}]; each may stand once"
+            )
         seen[value] = index
     return tuple(sorted(numbers))
 

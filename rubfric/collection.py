@@ -84,7 +84,11 @@ def _assemble(
     coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), _attributes(*AXES["scale"]))
     variables = {name: (tuple(AXES), array, _attributes(*SCALARS[name])) for name, array in arrays.items()}
     for name, described in _ROAD.items():
-        variables[name] = (("scale",), np.array([road[scale][name] for scale in axes["scale"]]), _attributes(*described))
+        variables[name] = (
+            ("scale",),
+            np.array([road[scale][name] for scale in axes["scale"]]),
+            _attributes(*described),
+        )
     attributes = {
         "title": "Friction of a rubber block over scale, speed, pressure and height-to-width ratio",
         "Conventions": CONVENTIONS.split()[0],

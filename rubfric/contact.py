@@ -15,11 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.errors import NotConverged
-
-Real = NDArray[np.float64]
 
 MOST_STEPS = 500
 # Block pivots in a row that may fail to reduce the violations before single pivots take over.
@@ -50,12 +48,12 @@ class Contact:
     iterations: int
 
     @property
-    def touching(self) -> NDArray[np.bool_]:
+    def touching(self) -> Flags:
         """Nodes in contact, shape (n,)."""
         return self.pressure > 0.0
 
 
-def full_contact(compliance: NDArray[np.complex128], profile: Real, nominal: float) -> Contact | None:
+def full_contact(compliance: Complex, profile: Real, nominal: float) -> Contact | None:
     """Return the contact that fills the whole road, or None where it would need to pull.
 
     Parameters
@@ -80,10 +78,10 @@ def full_contact(compliance: NDArray[np.complex128], profile: Real, nominal: flo
 
 
 def solve_contact(
-    compliance: NDArray[np.complex128],
+    compliance: Complex,
     profile: Real,
     nominal: float,
-    start: NDArray[np.bool_],
+    start: Flags,
     label: str = "contact",
 ) -> Contact:
     """Solve the complementarity problem from a first guess of the contact.
@@ -130,7 +128,7 @@ def solve_contact(
     raise NotConverged(label, MOST_STEPS, count, "number of surface nodes that violate contact")
 
 
-def _equilibrium(kernel: Real, profile: Real, nominal: float, inside: NDArray[np.int64]) -> tuple[Real, float]:
+def _equilibrium(kernel: Real, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
     """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
     nodes = len(profile)
     lag = inside[:, None] - inside[None, :]

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 import rubfric
+from rubfric.arrays import Real
 from rubfric.energy import Energies
 from rubfric.errors import BrokenResult
 from rubfric.steady import SteadySolution
@@ -67,7 +67,10 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
         ``strain_energy_density_profile`` over ``depth``; the scalars of ``SCALARS``; the scene's parameters.
     """
     variables = _mesh(solution, energies) | _surface(solution)
-    variables |= {name: ((), value, _attributes(*SCALARS[name])) for name, value in _scalars(solution, energies, wall_time).items()}
+    variables |= {
+        name: ((), value, _attributes(*SCALARS[name]))
+        for name, value in _scalars(solution, energies, wall_time).items()
+    }
     return xr.Dataset(variables, attrs=_provenance(solution))
 
 
@@ -84,7 +87,7 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     node = np.arange(rows * (columns + 1), dtype=np.int32).reshape(rows, columns + 1)
     faces = np.stack((node[:-1, :-1], node[:-1, 1:], node[1:, 1:], node[1:, :-1]), axis=-1).reshape(-1, 4)
 
-    def around(field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def around(field: Real) -> Real:
         return np.concatenate((field, field[:, :1]), axis=1).ravel()
 
     topology = {
@@ -96,7 +99,11 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     }
     return {
         "mesh": ((), np.int32(0), topology),
-        "mesh_node_x": ("node", np.tile(x, rows), _attributes("mm", "distance along the road", standard_name="projection_x_coordinate")),
+        "mesh_node_x": (
+            "node",
+            np.tile(x, rows),
+            _attributes("mm", "distance along the road", standard_name="projection_x_coordinate"),
+        ),
         "mesh_node_y": (
             "node",
             np.repeat(block.row_positions, columns + 1),
@@ -105,13 +112,25 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "mesh_face_nodes": (
             ("face", "corner"),
             faces,
-            {"cf_role": "face_node_connectivity", "long_name": "nodes of each cell, counter-clockwise", "start_index": 0},
+            {
+                "cf_role": "face_node_connectivity",
+                "long_name": "nodes of each cell, counter-clockwise",
+                "start_index": 0,
+            },
         ),
-        "displacement_x": ("node", around(energies.displacement[:, 0]), _attributes("mm", "displacement along the road", **place)),
+        "displacement_x": (
+            "node",
+            around(energies.displacement[:, 0]),
+            _attributes("mm", "displacement along the road", **place),
+        ),
         "displacement_y": (
             "node",
             around(energies.displacement[:, 1]),
-            _attributes("mm", "displacement away from the road; y + displacement_y is the height above the road's mean plane", **place),
+            _attributes(
+                "mm",
+                "displacement away from the road; y + displacement_y is the height above the road's mean plane",
+                **place,
+            ),
         ),
         "strain_energy_density": (
             "node",
@@ -175,13 +194,17 @@ def warnings(solution: SteadySolution) -> list[str]:
     found = []
     if poisson < 0.0:
         found.append(
-            f"The effective Poisson's ratio is {poisson:.2f}: the shear modulus has risen past the constant bulk modulus; "
-            "bulk: proportional avoids this."
+            f"The effective Poisson's ratio is {poisson:.2f}: the shear modulus has risen past the constant bulk "
+            "modulus; bulk: proportional avoids this."
         )
     if ratio > _SPEED_LIMIT:
-        found.append(f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter.")
+        found.append(
+            f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter."
+        )
     if compression > _COMPRESSION_LIMIT:
-        found.append(f"The load presses the block by {compression:.0%} of its height: small strain is only indicative here.")
+        found.append(
+            f"The load presses the block by {compression:.0%} of its height: small strain is only indicative here."
+        )
     if not solution.resolved:
         found.append(
             f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, "

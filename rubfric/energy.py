@@ -13,15 +13,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rubfric.arrays import Complex, Real
 from rubfric.material import Material
-from rubfric.scene import Scene
 from rubfric.steady import SteadySolution
 from rubfric.strain import StrainHarmonics, harmonic_strain, synthesise
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -125,9 +121,7 @@ def nodal_density(solution: SteadySolution, strain: StrainHarmonics, thickness: 
     for rows, count in _node_bands(solution):
         amplitude = strain.nodal[rows, :, :count].swapaxes(0, 1)
         springs = transfer[..., :count]
-        xx, yy, xy, dilatation = (
-            synthesise(component * springs, strain.harmonics, columns) for component in amplitude
-        )
+        xx, yy, xy, dilatation = (synthesise(component * springs, strain.harmonics, columns) for component in amplitude)
         zz = np.zeros_like(xx)
         if scene.plane == "stress":
             zz = synthesise(amplitude[3] * (springs * thickness[:count]), strain.harmonics, columns)

@@ -14,17 +14,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rubfric import checks
+from rubfric.arrays import Complex, Real
 from rubfric.errors import InvalidInput
 
 MODULI = ("long_term", "instantaneous")
 BULK = ("elastic", "proportional")
 PLANES = ("stress", "strain")
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -171,7 +169,7 @@ class Material:
         """
         shear = self.complex_shear_modulus(frequency)
         if plane == "strain":
-            return np.zeros_like(shear)
+            return np.zeros(shear.shape, dtype=complex)
         bulk = self.complex_bulk_modulus(frequency)
         return -(3.0 * bulk - 2.0 * shear) / (3.0 * bulk + 4.0 * shear)
 

@@ -6,8 +6,9 @@ Nothing here needs a mesh. The compliance of the layer also serves the steady so
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from rubfric.arrays import Complex, Real
 from rubfric.material import Material
 from rubfric.road import SineScale
 
@@ -15,7 +16,7 @@ from rubfric.road import SineScale
 _DEEP = 40.0
 
 
-def layer_factor(depth: ArrayLike) -> NDArray[np.float64]:
+def layer_factor(depth: ArrayLike) -> Real:
     """Return f(q) = (sinh q cosh q - q) / cosh² q, the stiffness of the layer over that of the half-space.
 
     The top carries uniform pressure and moves sideways as a whole.
@@ -32,7 +33,7 @@ def layer_factor(depth: ArrayLike) -> NDArray[np.float64]:
 
 def layer_compliance(
     material: Material, road: SineScale, velocity: float, height: float, plane: str, harmonics: ArrayLike
-) -> NDArray[np.complex128]:
+) -> Complex:
     """Return surface displacement over pressure, mm/MPa, of a layer that slides steadily, for each harmonic.
 
     Harmonic n has wavenumber n k and frequency n k v: C_n = 2 / (n k E*(n k v) f(n k H)).
@@ -51,9 +52,7 @@ def layer_compliance(
     return 2.0 / (wavenumber * modulus * layer_factor(wavenumber * height))
 
 
-def full_contact_pressure(
-    material: Material, road: SineScale, velocity: float, height: float, plane: str
-) -> float:
+def full_contact_pressure(material: Material, road: SineScale, velocity: float, height: float, plane: str) -> float:
     """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2."""
     compliance = layer_compliance(material, road, velocity, height, plane, [1])[0]
     return float(road.amplitude / abs(compliance))
@@ -67,7 +66,7 @@ def full_contact_friction(
     return float(road.amplitude * road.steepest_slope * (1.0 / compliance).imag / (2.0 * pressure))
 
 
-def westergaard_contact_fraction(pressure_ratio: ArrayLike) -> NDArray[np.float64]:
+def westergaard_contact_fraction(pressure_ratio: ArrayLike) -> Real:
     """Return the contact fraction A of an elastic half-space on a sine: sin²(pi A / 2) = p / p*.
 
     Parameters

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rubfric import checks
+from rubfric.arrays import Real
 from rubfric.errors import InvalidInput
 
 
@@ -34,19 +35,19 @@ class SineScale:
 
     @property
     def wavelength(self) -> float:
-        """lambda = 2 pi / k, mm."""
+        """Lambda = 2 pi / k, mm."""
         return 2.0 * math.pi / self.wavenumber
 
     @property
     def steepest_slope(self) -> float:
-        """a k, dimensionless."""
+        """A k, dimensionless."""
         return self.amplitude * self.wavenumber
 
-    def height(self, position: ArrayLike) -> NDArray[np.float64]:
+    def height(self, position: ArrayLike) -> Real:
         """Return s(x), mm, at positions in mm of any shape."""
         return self.amplitude * np.sin(self.wavenumber * np.asarray(position, dtype=float))
 
-    def slope(self, position: ArrayLike) -> NDArray[np.float64]:
+    def slope(self, position: ArrayLike) -> Real:
         """Return s'(x), dimensionless, at positions in mm of any shape."""
         return self.steepest_slope * np.cos(self.wavenumber * np.asarray(position, dtype=float))
 

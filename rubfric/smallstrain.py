@@ -15,13 +15,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rubfric.arrays import Complex, Real, Whole
 from rubfric.block import Block
 from rubfric.material import Material
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 # A harmonic decays as exp(-n k y): rows above n k y = 40 do not feel it in double precision.
 _FADED = 40.0
@@ -44,7 +41,7 @@ class HarmonicResponse:
         others have faded.
     """
 
-    harmonics: NDArray[np.int64]
+    harmonics: Whole
     compliance: Complex
     shear_ratio: Complex
     transfer: list[Complex]
@@ -100,7 +97,7 @@ def stiffness_moduli(material: Material, frequency: Real, plane: str) -> tuple[C
     return shear, 2.0 * shear * (3.0 * bulk - 2.0 * shear) / (3.0 * bulk + 4.0 * shear)
 
 
-def respond(block: Block, material: Material, velocity: float, harmonics: NDArray[np.int64]) -> HarmonicResponse:
+def respond(block: Block, material: Material, velocity: float, harmonics: Whole) -> HarmonicResponse:
     """Eliminate the block down to its surface.
 
     The top carries uniform pressure and moves sideways as a whole; the sides are tied.
@@ -117,12 +114,12 @@ def respond(block: Block, material: Material, velocity: float, harmonics: NDArra
     active = _active(block, wavenumber)
     # u_x vanishes at the top: its harmonics are held, so only the entry yy is inverted there.
     zero = np.zeros(active[-1], dtype=complex)
-    inverse = (zero, zero, 1.0 / chain.own[2][-1, : active[-1]])
+    inverse = (zero, zero, 1.0 / chain.own[2, -1, : active[-1]])
     transfer: list[Complex] = []
     for row in range(block.rows - 1, -1, -1):
         above, count = active[row + 1], active[row]
-        xx, xy, yy = (entry[row, :count] for entry in chain.own)
-        step, correction = _eliminate(*(entry[row, :above] for entry in chain.upward), *inverse)
+        xx, xy, yy = chain.own[:, row, :count]
+        step, correction = _eliminate(chain.upward[:, row, :above], inverse)
         transfer.append(step)
         for entry, part in zip((xx, xy, yy), correction, strict=True):
             entry[:above] -= part
@@ -139,31 +136,33 @@ class _Chain:
 
     Attributes
     ----------
-    own : tuple of three ndarray of complex, shape (rows + 1, n)
+    own : ndarray of complex, shape (3, rows + 1, n)
         xx, xy and yy of each row of nodes.
-    upward : tuple of four ndarray of complex, shape (rows, n)
+    upward : ndarray of complex, shape (4, rows, n)
         xx, xy, yx and yy between a row and the one above.
     """
 
-    own: tuple[Complex, ...]
-    upward: tuple[Complex, ...]
+    own: Complex
+    upward: Complex
 
 
-def _weigh(block: Block, harmonics: NDArray[np.int64], moduli: tuple[Complex, Complex]) -> _Chain:
+def _weigh(block: Block, harmonics: Whole, moduli: tuple[Complex, Complex]) -> _Chain:
+    operators = block.operators()
     angle = 2.0 * np.pi / block.columns * harmonics
-    bend, sine = 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)
-    terms = list(zip(block.operators(), moduli, strict=True))
+    waves = np.stack((np.ones_like(angle), 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)))
+    # A form's parts, as in RowOperator: uniform and bending (0, 1) where both unknowns are alike, sine (2) otherwise.
+    straight, mixed = slice(0, 2), slice(2, 3)
 
-    def straight(part: str, component: int) -> Complex:
-        blocks = ((getattr(operator, part)[:2, :, component, component], weight) for operator, weight in terms)
-        return sum(np.outer(uniform, weight) + np.outer(curved, weight * bend) for (uniform, curved), weight in blocks)
+    def entry(part: str, parts: slice, low: int, high: int) -> Complex:
+        terms = zip(operators, moduli, strict=True)
+        return np.sum(
+            [getattr(form, part)[parts, :, low, high].T @ (waves[parts] * weight) for form, weight in terms], axis=0
+        )
 
-    def mixed(part: str, low: int, high: int) -> Complex:
-        return sum(np.outer(getattr(operator, part)[2, :, low, high], weight * sine) for operator, weight in terms)
-
-    own = (straight("diagonal", 0), mixed("diagonal", 0, 1), straight("diagonal", 1))
-    upward = (straight("upward", 0), mixed("upward", 0, 1), mixed("upward", 1, 0), straight("upward", 1))
-    return _Chain(own, upward)
+    x, y = 0, 1
+    own = [entry("diagonal", straight, x, x), entry("diagonal", mixed, x, y), entry("diagonal", straight, y, y)]
+    upward = [entry("upward", mixed if low != high else straight, low, high) for low in (x, y) for high in (x, y)]
+    return _Chain(np.stack(own), np.stack(upward))
 
 
 def _active(block: Block, wavenumber: Real) -> list[int]:
@@ -173,12 +172,14 @@ def _active(block: Block, wavenumber: Real) -> list[int]:
 
 
 def _eliminate(
-    xx: Complex, xy: Complex, yx: Complex, yy: Complex, first: Complex, mixed: Complex, last: Complex
+    upward: Complex, inverse: tuple[Complex, Complex, Complex]
 ) -> tuple[Complex, tuple[Complex, Complex, Complex]]:
     """Return -S^-1 U^T, the transfer to the row above, and U S^-1 U^T (xx, xy, yy), the correction below.
 
-    ``xx`` to ``yy`` are the entries of U, and ``first`` (xx), ``mixed`` (xy), ``last`` (yy) those of S^-1.
+    ``upward`` holds the entries xx, xy, yx, yy of U, and ``inverse`` xx, xy, yy of the symmetric S^-1.
     """
+    xx, xy, yx, yy = upward
+    first, mixed, last = inverse
     x_from_x, y_from_x = first * xx + mixed * xy, mixed * xx + last * xy
     x_from_y, y_from_y = first * yx + mixed * yy, mixed * yx + last * yy
     correction = (xx * x_from_x + xy * y_from_x, xx * x_from_y + xy * y_from_y, yx * x_from_y + yy * y_from_y)

@@ -6,17 +6,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
+from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
 from rubfric.contact import Contact, full_contact, solve_contact
 from rubfric.reference import layer_compliance
 from rubfric.scene import Scene
 from rubfric.smallstrain import HarmonicResponse, respond
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 # The search for a mesh starts at this many columns and doubles until this many nodes touch.
 _SCOUT_COLUMNS = 64
@@ -64,7 +61,7 @@ class SteadySolution:
 
     @property
     def frequencies(self) -> Real:
-        """n k v, rad/s, of the harmonics that take part, shape (n,)."""
+        """N k v, rad/s, of the harmonics that take part, shape (n,)."""
         return self.response.harmonics * self.scene.road.excitation_frequency(self.scene.velocity)
 
 
@@ -122,7 +119,7 @@ def _mesh(scene: Scene, columns: int) -> Block:
     )
 
 
-def _scout(scene: Scene) -> tuple[int, NDArray[np.bool_], int]:
+def _scout(scene: Scene) -> tuple[int, Flags, int]:
     """Return the columns that the scene needs, a first guess of the contact, and the steps it took.
 
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
@@ -132,9 +129,7 @@ def _scout(scene: Scene) -> tuple[int, NDArray[np.bool_], int]:
     columns, iterations = _SCOUT_COLUMNS, 0
     while True:
         harmonics = np.arange(1, columns // 2 + 1)
-        compliance = layer_compliance(
-            scene.material, road, scene.velocity, scene.height, scene.plane, harmonics
-        )
+        compliance = layer_compliance(scene.material, road, scene.velocity, scene.height, scene.plane, harmonics)
         profile = road.height(road.wavelength / columns * np.arange(columns))
         spectrum = np.concatenate(([0.0], compliance))
         contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
@@ -153,7 +148,7 @@ def _columns(needed: float, fewest: int, most: int) -> int:
     return min(_COLUMN_STEP * steps, most)
 
 
-def _carry(touching: NDArray[np.bool_], columns: int) -> NDArray[np.bool_]:
+def _carry(touching: Flags, columns: int) -> Flags:
     """Return a contact on another number of columns, widened by one of its own nodes on either side."""
     wide = touching | np.roll(touching, 1) | np.roll(touching, -1)
     return wide[np.arange(columns) * len(wide) // columns]

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rubfric.arrays import Complex, Real, Whole
 from rubfric.block import Block, Quadrature
 from rubfric.smallstrain import HarmonicResponse
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -30,13 +27,15 @@ class StrainHarmonics:
         Strains xx, yy, xy and in-plane dilatation at the nodes, averaged from the quadrature points by area.
     """
 
-    harmonics: NDArray[np.int64]
+    harmonics: Whole
     shear_square: Real
     volume_square: Real
     nodal: Complex
 
 
-def harmonic_strain(block: Block, response: HarmonicResponse, thickness: Complex, displacement: Complex) -> StrainHarmonics:
+def harmonic_strain(
+    block: Block, response: HarmonicResponse, thickness: Complex, displacement: Complex
+) -> StrainHarmonics:
     """Return the strains of the displacement amplitudes, by quadrature over one column of cells.
 
     Parameters
@@ -123,7 +122,7 @@ def _square(amplitude: Complex) -> Real:
     return amplitude.real**2 + amplitude.imag**2
 
 
-def synthesise(amplitude: Complex, harmonics: NDArray[np.int64], columns: int) -> Real:
+def synthesise(amplitude: Complex, harmonics: Whole, columns: int) -> Real:
     """Return the real field f(x) = 2 Re sum_n f_n exp(i n k x) at evenly spread columns.
 
     Harmonics that the columns cannot tell apart are folded together, so the values are exact there.

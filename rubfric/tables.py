@@ -33,7 +33,7 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     """Return all scenes of one scale, by aspect, pressure and speed."""
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
-    table = table.astype({name: int for name in _WHOLE})
+    table = table.astype(dict.fromkeys(_WHOLE, int))
     return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
 
 

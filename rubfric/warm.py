@@ -12,7 +12,7 @@ from importlib import import_module
 from pathlib import Path
 
 import rubfric.collection
-import rubfric.tables
+import rubfric.tables  # noqa: F401
 from rubfric.dataset import write
 from rubfric.material import Material
 from rubfric.road import SineScale

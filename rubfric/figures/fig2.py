@@ -104,5 +104,5 @@ def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: float) -> 
 
 def _scale_distance(panel: Axes, results: Sequence[xr.Dataset]) -> None:
     panel.set_xlim(0.0, max(float(result["depth"].values.max()) for result in results))
-    panel.xaxis.set_major_locator(MaxNLocator(4))
+    panel.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))

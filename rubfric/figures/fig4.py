@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -34,11 +35,15 @@ _VARIABLES = (
     "nominal_compression",
 )
 _MAP = "viridis"
-_PLATE = {"boxstyle": "square,pad=0.1", "facecolor": "0.93", "linewidth": 0.0}
+_ROAD: dict[str, Any] = {"facecolor": "0.93", "edgecolor": "0.6", "hatch": "//////", "linewidth": 0.0}
+_PLATE: dict[str, Any] = {"boxstyle": "square,pad=0.1", "facecolor": "0.93", "linewidth": 0.0}
 # The window in wavelengths: its width, its room below the road, and its height above the road's mean plane.
 _WIDTH, _BELOW, _ABOVE = 1.25, 0.11, 0.5
-# Margins, gaps and the largest panel, in inches.
-_LEFT, _RIGHT, _TOP, _BOTTOM, _GAP, _WIDEST = 0.78, 0.72, 0.22, 0.62, 0.09, 2.4
+# In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
+_LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.72, 0.22, 0.42, 0.105
+_GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
+# Sizes of type, in points.
+_SMALL, _SMALLEST = 6.0, 5.0
 
 
 @dataclass(frozen=True)
@@ -55,11 +60,17 @@ class _Window:
         """Height over width."""
         return (self.top - self.bottom) / (self.right - self.left)
 
-    @property
-    def inscription(self) -> tuple[float, float]:
-        """Middle of the solid below the troughs of the road, mm."""
-        solid = _BELOW * (self.right - self.left) / _WIDTH
-        return 0.5 * (self.left + self.right), self.bottom + 0.45 * solid
+
+@dataclass(frozen=True)
+class _Sheet:
+    """Sizes of the figure and of a panel, in inches, and the note below the panels."""
+
+    width: float
+    height: float
+    panel_width: float
+    panel_height: float
+    bottom: float
+    note: str
 
 
 @style.applied()
@@ -76,6 +87,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     matplotlib.figure.Figure
         The block repeats along the road and slides to the right. It is shown to half a wavelength above the road,
         with its vertical displacements to scale but without its mean compression, which is told below the panels.
+        Each panel tells the share of the nominal area in contact.
 
     Raises
     ------
@@ -83,24 +95,24 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
         Where the results do not fill a grid of pressures and speeds, or lack something.
     """
     grid = by_pressure_and_speed(results, _VARIABLES)
-    window = _window(results)
+    window = _window(results[0])
     norm = _colour_scale(results)
-    figure, axes = _arrange(len(grid.pressures), len(grid.speeds), window)
+    sheet = _sheet(grid, window)
+    figure, axes = _arrange(grid, window, sheet)
     for place, (panel, (pressure, speed)) in enumerate(zip(axes, product(grid.pressures, grid.speeds), strict=True)):
-        _draw_scene(panel, grid.results[pressure, speed], window, norm)
-        contact = 100.0 * float(grid.results[pressure, speed]["contact_fraction"])
-        text = f"{letter(place)} contact {contact:.0f} %"
-        panel.text(*window.inscription, text, fontsize=6.0, ha="center", va="center", bbox=_PLATE)
-    _label(figure, axes, grid)
-    _colour_bar(figure, norm)
+        result = grid.results[pressure, speed]
+        _draw_scene(panel, result, window, norm)
+        _inscribe(panel, place, float(result["contact_fraction"]), window, sheet)
+    _label(figure, axes, grid, sheet)
+    _colour_bar(figure, norm, sheet)
     return figure
 
 
-def _window(results: Sequence[xr.Dataset]) -> _Window:
+def _window(result: xr.Dataset) -> _Window:
     """Return one and a quarter wavelengths about a crest."""
-    road = results[0]["road_height"].values
-    width = wavelength(results[0])
-    crest = float(results[0]["surface_x"].values[np.argmax(road)])
+    road = result["road_height"].values
+    width = wavelength(result)
+    crest = float(result["surface_x"].values[np.argmax(road)])
     return _Window(
         left=crest - 0.5 * _WIDTH * width,
         right=crest + 0.5 * _WIDTH * width,
@@ -119,53 +131,37 @@ def _colour_scale(results: Sequence[xr.Dataset]) -> LogNorm:
     return LogNorm(min(low, 0.5 * high), high, clip=True)
 
 
-def _arrange(rows: int, columns: int, window: _Window) -> tuple[Figure, list[Axes]]:
-    """Return panels row by row, of the window's proportions, so that none is surrounded by empty paper."""
-    room = style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _GAP
-    panel = min(room / columns, _WIDEST)
-    high = panel * window.proportion
-    width = _LEFT + _RIGHT + columns * panel + (columns - 1) * _GAP
-    height = _TOP + _BOTTOM + rows * high + (rows - 1) * _GAP
-    figure = Figure(figsize=(width, height))
-    grid = figure.subplots(
-        rows,
-        columns,
-        sharex=True,
-        sharey=True,
-        squeeze=False,
-        gridspec_kw={
-            "left": _LEFT / width,
-            "right": 1.0 - _RIGHT / width,
-            "bottom": _BOTTOM / height,
-            "top": 1.0 - _TOP / height,
-            "wspace": _GAP / panel,
-            "hspace": _GAP / high,
-        },
+def _sheet(grid: SceneGrid, window: _Window) -> _Sheet:
+    """Give panels the window's proportions, so that no paper is left empty around them."""
+    rows, columns = len(grid.pressures), len(grid.speeds)
+    panel_width = min((style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns, _WIDEST)
+    panel_height = panel_width * window.proportion
+    width = _LEFT + _RIGHT + columns * panel_width + (columns - 1) * _GAP
+    note = textwrap.wrap(_note(grid, panel_width < _NARROW), int(19.0 * (width - _LEFT)))
+    bottom = _BOTTOM + _NOTE_LINE * len(note)
+    height = _TOP + bottom + rows * panel_height + (rows - 1) * _GAP
+    return _Sheet(width, height, panel_width, panel_height, bottom, "\n".join(note))
+
+
+def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, list[Axes]]:
+    """Return the panels row by row."""
+    figure = Figure(figsize=(sheet.width, sheet.height))
+    figure.subplots_adjust(
+        left=_LEFT / sheet.width,
+        right=1.0 - _RIGHT / sheet.width,
+        bottom=sheet.bottom / sheet.height,
+        top=1.0 - _TOP / sheet.height,
+        wspace=_GAP / sheet.panel_width,
+        hspace=_GAP / sheet.panel_height,
     )
-    first = grid[0, 0]
+    panels = figure.subplots(len(grid.pressures), len(grid.speeds), sharex=True, sharey=True, squeeze=False)
+    first = panels[0, 0]
     first.set_xlim(window.left, window.right)
     first.set_ylim(window.bottom, window.top)
     for axis in (first.xaxis, first.yaxis):
         axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
         axis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
-    return figure, list(grid.flat)
-
-
-def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid) -> None:
-    """Write speeds above the columns, pressures beside the rows, the axes' names, and what is shown."""
-    columns = len(grid.speeds)
-    for panel, speed in zip(axes, grid.speeds, strict=False):
-        panel.set_title(f"{style.written(speed)} mm/s")
-    for panel, pressure in zip(axes[::columns], grid.pressures, strict=True):
-        panel.set_ylabel("height (mm)", fontsize=6.5)
-        place = panel.get_position()
-        figure.text(
-            0.03 / figure.get_figwidth(), 0.5 * (place.y0 + place.y1), f"{style.written(pressure)}\nMPa", va="center"
-        )
-    for panel in axes[-columns:]:
-        panel.set_xlabel("along the road (mm)", fontsize=6.5)
-    width, height = figure.get_size_inches()
-    figure.text(_LEFT / width, 0.04 / height, _note(grid, int(18.0 * width)), fontsize=6.0, va="bottom")
+    return figure, list(panels.flat)
 
 
 def _draw_scene(panel: Axes, result: xr.Dataset, window: _Window, norm: LogNorm) -> None:
@@ -177,27 +173,53 @@ def _draw_scene(panel: Axes, result: xr.Dataset, window: _Window, norm: LogNorm)
     panel.plot(block.lower_x, block.lower_y, color="black", linewidth=0.6)
     x = np.linspace(window.left, window.right, 400)
     road = np.interp(x, result["surface_x"].values, result["road_height"].values, period=wavelength(result))
-    panel.fill_between(x, window.bottom, road, facecolor="0.93", edgecolor="0.6", hatch="//////", linewidth=0.0)
+    panel.fill_between(x, window.bottom, road, **_ROAD)
     panel.plot(x, road, color="black", linewidth=0.4)
 
 
-def _colour_bar(figure: Figure, norm: LogNorm) -> None:
-    width, height = figure.get_size_inches()
-    place = (1.0 - (_RIGHT - 0.08) / width, _BOTTOM / height, 0.09 / width, 1.0 - (_BOTTOM + _TOP) / height)
+def _inscribe(panel: Axes, place: int, contact: float, window: _Window, sheet: _Sheet) -> None:
+    """Write the panel's letter and the share in contact into the solid below the road."""
+    word = "" if sheet.panel_width < _NARROW else "contact "
+    solid = _BELOW / _WIDTH
+    size = min(_SMALL, max(_SMALLEST, 50.0 * solid * sheet.panel_width))
+    middle = window.bottom + 0.45 * solid * (window.right - window.left)
+    text = f"{letter(place)} {word}{100.0 * contact:.0f} %"
+    panel.text(0.5 * (window.left + window.right), middle, text, fontsize=size, ha="center", va="center", bbox=_PLATE)
+
+
+def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet) -> None:
+    """Write speeds above the columns, pressures beside the rows, the names of the axes, and the note."""
+    columns = len(grid.speeds)
+    for panel, speed in zip(axes, grid.speeds, strict=False):
+        panel.set_title(f"{style.written(speed)} mm/s")
+    for panel, pressure in zip(axes[::columns], grid.pressures, strict=True):
+        place = panel.get_position()
+        text = f"{style.written(pressure)}\nMPa"
+        figure.text(0.03 / sheet.width, 0.5 * (place.y0 + place.y1), text, va="center")
+    middle = 0.5 * (_LEFT + sheet.width - _RIGHT) / sheet.width
+    figure.text(middle, (sheet.bottom - 0.32) / sheet.height, "distance along the road (mm)", ha="center")
+    middle = 0.5 * (sheet.bottom + sheet.height - _TOP) / sheet.height
+    figure.text(0.36 / sheet.width, middle, "height (mm)", rotation="vertical", va="center")
+    figure.text(_LEFT / sheet.width, 0.04 / sheet.height, sheet.note, fontsize=_SMALL, va="bottom")
+
+
+def _colour_bar(figure: Figure, norm: LogNorm, sheet: _Sheet) -> None:
+    left, high = sheet.width - _RIGHT + 0.08, sheet.height - sheet.bottom - _TOP
+    place = (left / sheet.width, sheet.bottom / sheet.height, 0.09 / sheet.width, high / sheet.height)
     bar = figure.colorbar(ScalarMappable(norm, _MAP), cax=figure.add_axes(place), extend="min")
     bar.set_label("strain-energy density (MPa)")
     tick_decades(bar.ax.yaxis, *bar.ax.get_ylim())
 
 
-def _note(grid: SceneGrid, characters: int) -> str:
+def _note(grid: SceneGrid, narrow: bool) -> str:
     """Return what a reader has to know about the picture of the block."""
     strains = [float(grid.results[pressure, grid.speeds[0]]["nominal_compression"]) for pressure in grid.pressures]
     listed = ", ".join(
         f"{100.0 * strain:.2g} % at {style.written(pressure)} MPa"
         for strain, pressure in zip(strains, grid.pressures, strict=True)
     )
-    return textwrap.fill(
-        "Lower part of the block, which slides to the right. Its vertical displacements are to scale, but without the mean "
-        f"compression of the block ({listed}).",
-        characters,
+    shares = " Percentages: share of the nominal area in contact." if narrow else ""
+    return (
+        "Lower part of the block, which slides to the right. Its vertical displacements are to scale, "
+        f"but without the mean compression of the block ({listed}).{shares}"
     )

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rubfric.figures import panels, style
-from rubfric.figures.peaks import mark_peak, peak_handle
+from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.selection import friction
 
@@ -54,7 +54,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     handles = [
         Line2D([], [], label=style.written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)
     ]
-    panels.legend_beside(figure, [*handles, peak_handle()], "nominal pressure\n(MPa)")
+    panels.legend_beside(figure, [*handles, *peak_handles(*axes)], "nominal pressure\n(MPa)")
     return figure
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.peaks import mark_peak, peak_handle
+from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.selection import described, friction
 from rubfric.multiscale import total_friction
@@ -69,7 +69,9 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     scale_friction(axes, total)
     axes.set_xlabel("sliding speed (mm/s)")
     axes.set_ylabel("friction coefficient (-)")
-    panels.legend_above(figure, [line, peak_handle(), *patches[::-1]], described(pressure=pressure, aspect=aspect), 3)
+    panels.legend_above(
+        figure, [line, *peak_handles(axes), *patches[::-1]], described(pressure=pressure, aspect=aspect), 3
+    )
     return figure
 
 

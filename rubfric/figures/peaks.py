@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-# By this name the rings are found again in a figure.
-RING = "peak"
+_RING = "peak"
 _LOOK: dict[str, Any] = {
     "linestyle": "none",
     "marker": "o",
@@ -40,9 +39,16 @@ def mark_peak(axes: Axes, speeds: NDArray[np.float64], values: NDArray[np.float6
     """Draw a ring around the largest of the sampled points, if it is a peak."""
     place = peak(values)
     if place is not None:
-        axes.plot(speeds[place], values[place], color=colour, gid=RING, zorder=4, **_LOOK)
+        axes.plot(speeds[place], values[place], color=colour, gid=_RING, zorder=4, **_LOOK)
 
 
-def peak_handle() -> Line2D:
-    """Return the legend's entry for the rings."""
-    return Line2D([], [], color="black", label="sampled peak", **_LOOK)
+def rings(axes: Axes) -> list[Line2D]:
+    """Return the rings of a panel."""
+    return [line for line in axes.get_lines() if line.get_gid() == _RING]
+
+
+def peak_handles(*panels: Axes) -> list[Line2D]:
+    """Return the legend's entry for the rings, or none where the panels have no ring."""
+    if not any(rings(panel) for panel in panels):
+        return []
+    return [Line2D([], [], color="black", label="sampled peak", **_LOOK)]

@@ -1,0 +1,50 @@
+# make figures   set up a local environment and run the campaign: every table and figure, in results/
+# make test      set up and pass the tests
+# make check     formatting, lint, types, workflow lint
+# make bench     time scenes in-process and the campaign against its floor; writes docs/benchmark.md
+# make clean     remove results; make distclean removes the environment too
+
+PYTHON ?= python3
+VENV ?= .venv
+JOBS ?= 2
+CONFIG ?=
+
+export PATH := $(abspath $(VENV))/bin:$(PATH)
+unexport PYTHONPATH
+
+.PHONY: figures test check bench format clean distclean
+
+figures: $(VENV)/.ready
+	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
+
+test: $(VENV)/.ready
+	python -m pytest
+
+check: $(VENV)/.ready
+	ruff check .
+	ruff format --check .
+	mypy
+	snakefmt --check Snakefile workflow
+	snakemake --lint
+
+bench: $(VENV)/.ready
+	python tests/benchmark/scenes.py
+	python tests/benchmark/campaign.py
+
+format: $(VENV)/.ready
+	ruff check --fix .
+	ruff format .
+	snakefmt Snakefile workflow
+
+clean:
+	rm -rf results .snakemake
+
+distclean: clean
+	rm -rf $(VENV) build *.egg-info .pytest_cache .mypy_cache .ruff_cache
+
+$(VENV)/.ready: environment.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "rubfric needs Python 3.11 or later; this is %s. Set PYTHON=..." % sys.version.split()[0])'
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check -r environment.txt
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
