@@ -40,4 +40,6 @@ onstart:
 
 
 onsuccess:
-    print(f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes.")
+    print(
+        f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes."
+    )

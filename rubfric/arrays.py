@@ -8,6 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Real: TypeAlias = NDArray[np.floating[Any]]
-Complex: TypeAlias = NDArray[np.complexfloating[Any, Any]]
+Complex: TypeAlias = NDArray[np.complex128]
 Whole: TypeAlias = NDArray[np.integer[Any]]
 Flags: TypeAlias = NDArray[np.bool_]

@@ -169,7 +169,7 @@ class Material:
         """
         shear = self.complex_shear_modulus(frequency)
         if plane == "strain":
-            return np.zeros(shear.shape, dtype=complex)
+            return np.zeros(shear.shape, dtype=np.complex128)
         bulk = self.complex_bulk_modulus(frequency)
         return -(3.0 * bulk - 2.0 * shear) / (3.0 * bulk + 4.0 * shear)
 

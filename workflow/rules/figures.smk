@@ -26,10 +26,10 @@ rule campaign_figure:
     output:
         pdf=f"{RESULTS}/figures/{{figure}}.pdf",
         png=f"{RESULTS}/figures/{{figure}}.png",
-    wildcard_constraints:
-        figure="|".join(CAMPAIGN_FIGURES),
     log:
         f"{RESULTS}/logs/figures/{{figure}}.log",
+    wildcard_constraints:
+        figure="|".join(CAMPAIGN_FIGURES),
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
     message:
@@ -53,10 +53,10 @@ rule field_figure:
     output:
         pdf=f"{RESULTS}/figures/{{figure}}.pdf",
         png=f"{RESULTS}/figures/{{figure}}.png",
-    wildcard_constraints:
-        figure="|".join(FIELD_FIGURES),
     log:
         f"{RESULTS}/logs/figures/{{figure}}.log",
+    wildcard_constraints:
+        figure="|".join(FIELD_FIGURES),
     message:
         "Drawing {wildcards.figure}"
     run:

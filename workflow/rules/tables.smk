@@ -17,7 +17,13 @@ rule scale_table:
     message:
         "Friction on scale {wildcards.scale}: {output}"
     run:
-        jobs.run(input.script, log[0], output=output[0], campaign=input.campaign, scale=int(wildcards.scale))
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            campaign=input.campaign,
+            scale=int(wildcards.scale),
+        )
 
 
 rule total_table:
@@ -34,7 +40,13 @@ rule total_table:
     message:
         "Friction of all scales: {output}"
     run:
-        jobs.run(input.script, log[0], output=output[0], campaign=input.campaign, aspect=params.aspect)
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            campaign=input.campaign,
+            aspect=params.aspect,
+        )
 
 
 rule tables:
