@@ -61,6 +61,7 @@ def _read_scalars(
     """Return a result's place on the axes, its scalars, what it shares with its campaign, and its road."""
     try:
         with netCDF4.Dataset(path) as stored:
+            stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
             point = tuple(float(stored.getncattr(axis)) for axis in AXES)
             values = {name: float(stored[name][...]) for name in SCALARS}
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}

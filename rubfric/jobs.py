@@ -1,7 +1,8 @@
-"""Workflow jobs in processes of their own, forked from a server that has everything imported already.
+"""Workflow jobs in worker processes, forked from a server that has everything imported already.
 
-Importing the scientific stack takes longer than a scene. A fork server imports it once, when the workflow starts, and
-every job is a fresh fork of it: warm, yet alone. A crash, a kill or an exception fails that job and no other.
+Importing the scientific stack takes longer than a scene. A fork server imports it once, when the workflow starts;
+workers are forks of it, as many as jobs run at a time. A crash, a kill or an exception fails its own job and costs
+one worker; the next job gets a fresh one.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import contextlib
 import multiprocessing
 import os
 import runpy
+import signal
 import sys
 import threading
 import traceback
@@ -24,7 +26,8 @@ from rubfric.errors import RubfricError
 
 # One thread each: the systems are small, and jobs run side by side.
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-_STARTING = threading.Lock()
+_LOCK = threading.Lock()
+_IDLE: list[Connection] = []
 
 
 class JobFailed(RubfricError, RuntimeError):
@@ -57,23 +60,31 @@ def run(script: str, log: str, **arguments: Any) -> None:
     JobFailed
         Where ``main`` raised or its process died.
     """
-    warm_up()
-    context = multiprocessing.get_context("forkserver")
-    # The job's own word, not its exit code, tells how it ended: multiprocessing may lose the codes of
-    # processes that several threads wait for.
-    receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=_work, args=(sender, script, log, arguments))
-    with _STARTING, _nameless_main():
-        process.start()
-    sender.close()
+    worker = _hire()
     try:
-        failure = receiver.recv()
-    except EOFError:
+        worker.send((script, log, arguments))
+        failure = worker.recv()
+    except (EOFError, OSError):
         failure = "the job's process died before it could say why; most likely it was killed"
-    receiver.close()
-    process.join()
     if failure:
+        worker.close()
         raise JobFailed(f"{failure} (log: {log})")
+    with _LOCK:
+        _IDLE.append(worker)
+
+
+def _hire() -> Connection:
+    """Return the line to an idle worker, or to a new one."""
+    warm_up()
+    with _LOCK:
+        if _IDLE:
+            return _IDLE.pop()
+        context = multiprocessing.get_context("forkserver")
+        ours, theirs = context.Pipe()
+        with _nameless_main():
+            context.Process(target=_serve, args=(theirs,), daemon=True).start()
+    theirs.close()
+    return ours
 
 
 @contextlib.contextmanager
@@ -87,18 +98,28 @@ def _nameless_main() -> Iterator[None]:
         sys.modules["__main__"] = main
 
 
-def _work(sender: Connection, script: str, log: str, arguments: dict[str, Any]) -> None:
-    """Run the script's ``main`` and send the reason why it failed, or None."""
+def _serve(line: Connection) -> None:
+    """Do the jobs that come in, one by one, until the caller hangs up."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    with contextlib.suppress(EOFError):
+        while True:
+            script, log, arguments = line.recv()
+            line.send(_work(script, log, arguments))
+
+
+def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
+    """Do one job with all output in its log; return the reason why it failed, or None."""
     Path(log).parent.mkdir(parents=True, exist_ok=True)
-    with open(log, "w", encoding="utf-8", buffering=1) as stream:
+    with open(log, "w", encoding="utf-8") as stream:
         for descriptor in (1, 2):
             os.dup2(stream.fileno(), descriptor)
-        try:
-            main: Callable[..., None] = runpy.run_path(script)["main"]
-            main(**arguments)
-        except BaseException as error:
-            traceback.print_exc()
-            sender.send(f"{type(error).__name__}: {error}")
-        else:
-            sender.send(None)
+    try:
+        main: Callable[..., None] = runpy.run_path(script)["main"]
+        main(**arguments)
+    except Exception as error:
+        traceback.print_exc()
+        return f"{type(error).__name__}: {error}"
+    finally:
         sys.stdout.flush()
+        sys.stderr.flush()
+    return None

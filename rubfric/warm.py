@@ -6,6 +6,7 @@ Much of the scientific stack loads itself only on first use; what is loaded here
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import tempfile
 from importlib import import_module
@@ -39,3 +40,6 @@ def _use_everything() -> None:
 # Whatever is wrong here is wrong in the jobs too, which can say so.
 with contextlib.suppress(Exception):
     _use_everything()
+# What is here stays here: the forks' garbage collection need not touch, and so copy, it.
+gc.collect()
+gc.freeze()

@@ -1,4 +1,4 @@
-"""The deformed block as triangles, repeated along the road."""
+"""The deformed block as an image of a field, repeated along the road."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from rubfric.errors import InvalidInput
+
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class DeformedBlock:
-    """Triangles of the block over a window.
+    """Copies of the block side by side.
 
     Attributes
     ----------
-    x, y : numpy.ndarray
-        Places of the nodes, mm; ``y`` is above the mean plane of the road.
-    energy : numpy.ndarray
-        Strain-energy density at the nodes, MPa.
-    triangles : numpy.ndarray
-        Three nodes each.
-    lower_x, lower_y : numpy.ndarray
-        Places of the lower face from left to right, mm.
+    density : numpy.ndarray
+        Strain-energy density, MPa, at equidistant heights (rows, upwards) and abscissae (columns).
+    extent : tuple of float
+        Left, right, lower and upper edge of that image, mm.
+    outline : numpy.ndarray
+        Corners of the block, mm, from left to right along the lower face and back along the upper face.
+    lower_face : numpy.ndarray
+        Abscissae and heights of the lower face, mm, from left to right.
     """
 
-    x: Array
-    y: Array
-    energy: Array
-    triangles: NDArray[np.int64]
-    lower_x: Array
-    lower_y: Array
+    density: Array
+    extent: tuple[float, float, float, float]
+    outline: Array
+    lower_face: Array
 
 
 def wavelength(result: xr.Dataset) -> float:
@@ -42,8 +42,8 @@ def wavelength(result: xr.Dataset) -> float:
     return float(x.max() - x.min())
 
 
-def deform(result: xr.Dataset, left: float, right: float, top: float) -> DeformedBlock:
-    """Return the block deformed in height between two abscissae, up to a height at least, without its mean compression.
+def deform(result: xr.Dataset, left: float, right: float, heights: Array) -> DeformedBlock:
+    """Return the block deformed in height between two abscissae, without its mean compression.
 
     The lower face is where the contact has it. Above it every row of nodes keeps its distance from the lower face in
     the mean, whatever the load compresses the block by: small strain would turn a soft block under a high load inside
@@ -55,45 +55,42 @@ def deform(result: xr.Dataset, left: float, right: float, top: float) -> Deforme
     result : xarray.Dataset
         As built by ``rubfric.dataset.build``.
     left, right : float
-        Abscissae of the window, mm.
-    top : float
-        Height of the window's upper edge above the road's mean plane, mm.
+        Abscissae that the copies must cover, mm.
+    heights : numpy.ndarray
+        Equidistant heights above the road's mean plane at which the field is wanted, mm.
     """
-    x = result["mesh_node_x"].values
-    y = result["mesh_node_y"].values + _relative_height(result)
-    width = wavelength(result)
-    copies = np.arange(math.ceil((left - float(x.max())) / width), math.floor((right - float(x.min())) / width) + 1)
-    corners = result["mesh_face_nodes"].values.astype(np.int64)
-    corners = corners[y[corners].min(axis=1) <= top]
-    # Each quadrilateral makes two triangles, in every copy of the block.
-    triangles = np.concatenate((corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]))
-    triangles = (triangles + x.size * np.arange(copies.size)[:, None, None]).reshape(-1, 3)
-    repeated = (x + width * copies[:, None]).ravel()
-    reach = repeated[triangles]
-    lower = _lower_face(result)
+    x, y, density = _columns(result)
+    width, step = wavelength(result), float(x[1] - x[0])
+    first = math.floor((left - float(x[0])) / width)
+    copies = np.arange(first, math.ceil((right - float(x[0])) / width))
+    image = np.stack([np.interp(heights, column, field) for column, field in zip(y.T, density.T, strict=True)], axis=1)
+    # A node stands in the middle of its pixel.
+    start, rise = float(x[0]) + first * width - 0.5 * step, 0.5 * float(heights[1] - heights[0])
+    abscissae = (x + width * copies[:, None]).ravel()
+    lower, upper = (np.stack((abscissae, np.tile(face, copies.size))) for face in (y[0], y[-1]))
     return DeformedBlock(
-        x=repeated,
-        y=np.tile(y, copies.size),
-        energy=np.tile(result["strain_energy_density"].values, copies.size),
-        triangles=triangles[(reach.max(axis=1) >= left) & (reach.min(axis=1) <= right)],
-        lower_x=(x[lower] + width * copies[:, None]).ravel(),
-        lower_y=np.tile(y[lower], copies.size),
+        density=np.tile(image, copies.size),
+        extent=(start, start + width * copies.size, float(heights[0]) - rise, float(heights[-1]) + rise),
+        outline=np.concatenate((lower, upper[:, ::-1]), axis=1).T,
+        lower_face=lower,
     )
 
 
-def _relative_height(result: xr.Dataset) -> Array:
-    """Return the vertical displacement of the nodes less the mean of their row, plus that of the lowest row."""
-    displacement = result["displacement_y"].values
-    x = result["mesh_node_x"].values
-    _, row = np.unique(result["mesh_node_y"].values, return_inverse=True)
-    # The last column is the first one again.
-    once = (x < x.max()).astype(np.float64)
-    mean = np.bincount(row, displacement * once) / np.bincount(row, once)
-    return np.asarray(displacement - (mean - mean[0])[row])
+def _columns(result: xr.Dataset) -> tuple[Array, Array, Array]:
+    """Return the columns' abscissae, and the heights and the density of the nodes by row and column.
 
-
-def _lower_face(result: xr.Dataset) -> NDArray[np.intp]:
-    """Return the nodes of the lower face from left to right, the repeated one left out."""
-    x, height = result["mesh_node_x"].values, result["mesh_node_y"].values
-    lowest = np.flatnonzero((height == height.min()) & (x < x.max()))
-    return np.asarray(lowest[np.argsort(x[lowest])])
+    The last column of the mesh, which is the first one again, is left out.
+    """
+    x, y = result["mesh_node_x"].values, result["mesh_node_y"].values
+    order = np.lexsort((x, y))
+    columns = np.unique(x).size
+    if columns < 3 or x.size % columns or not np.array_equal(x[order].reshape(-1, columns)[0], np.unique(x)):
+        raise InvalidInput(f"the mesh of {x.size} nodes cannot be drawn, but must be made of rows and columns")
+    rows = {
+        name: result[name].values[order].reshape(-1, columns)[:, :-1]
+        for name in ("mesh_node_y", "displacement_y", "strain_energy_density")
+    }
+    moved = rows["displacement_y"]
+    mean = moved.mean(axis=1, keepdims=True)
+    height = rows["mesh_node_y"] + moved - (mean - mean[0])
+    return np.unique(x)[:-1], height, rows["strain_energy_density"]

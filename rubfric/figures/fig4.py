@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 from matplotlib.ticker import FuncFormatter, MaxNLocator
-from matplotlib.tri import Triangulation
 
 from rubfric.figures import style
 from rubfric.figures.deformation import deform, wavelength
@@ -26,7 +26,6 @@ from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 _VARIABLES = (
     "mesh_node_x",
     "mesh_node_y",
-    "mesh_face_nodes",
     "displacement_y",
     "strain_energy_density",
     "surface_x",
@@ -39,6 +38,8 @@ _ROAD: dict[str, Any] = {"facecolor": "0.93", "edgecolor": "0.6", "hatch": "////
 _PLATE: dict[str, Any] = {"boxstyle": "square,pad=0.1", "facecolor": "0.93", "linewidth": 0.0}
 # The window in wavelengths: its width, its room below the road, and its height above the road's mean plane.
 _WIDTH, _BELOW, _ABOVE = 1.25, 0.11, 0.5
+# Heights at which the field is sampled: as fine as print shows.
+_SAMPLES = 320
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.72, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
@@ -154,23 +155,27 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
         wspace=_GAP / sheet.panel_width,
         hspace=_GAP / sheet.panel_height,
     )
-    panels = figure.subplots(len(grid.pressures), len(grid.speeds), sharex=True, sharey=True, squeeze=False)
-    first = panels[0, 0]
-    first.set_xlim(window.left, window.right)
-    first.set_ylim(window.bottom, window.top)
-    for axis in (first.xaxis, first.yaxis):
-        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+    panels = figure.subplots(len(grid.pressures), len(grid.speeds), squeeze=False)
+    for panel in panels.flat:
+        # Limits set at once spare the panels, images and all, from following each other's.
+        panel.autoscale(False)
+        panel.set(xlim=(window.left, window.right), ylim=(window.bottom, window.top))
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+        panel.label_outer()
     return figure, list(panels.flat)
 
 
 def _draw_scene(panel: Axes, result: xr.Dataset, window: _Window, norm: LogNorm) -> None:
-    block = deform(result, window.left, window.right, window.top)
+    block = deform(result, window.left, window.right, np.linspace(window.bottom, window.top, _SAMPLES))
     # Without a strain there is no colour on a logarithmic scale.
-    energy = np.maximum(block.energy, np.finfo(np.float64).tiny)
-    mesh = Triangulation(block.x, block.y, block.triangles)
-    panel.tripcolor(mesh, energy, shading="gouraud", cmap=_MAP, norm=norm, rasterized=True)
-    panel.plot(block.lower_x, block.lower_y, color="black", linewidth=0.6)
+    density = np.maximum(block.density, np.finfo(np.float64).tiny)
+    image = panel.imshow(
+        density, cmap=_MAP, norm=norm, origin="lower", extent=block.extent, aspect="auto", interpolation="bilinear"
+    )
+    image.set_clip_path(Path(block.outline), panel.transData)
+    panel.plot(*block.lower_face, color="black", linewidth=0.6)
     x = np.linspace(window.left, window.right, 400)
     road = np.interp(x, result["surface_x"].values, result["road_height"].values, period=wavelength(result))
     panel.fill_between(x, window.bottom, road, **_ROAD)

@@ -1,0 +1,137 @@
+"""Time the default campaign at -j2 beside its floor, all measured in this run.
+
+The floor is half the sum of the scenes' in-process times, plus the same DAG with jobs that only touch their
+outputs, plus drawing every figure once.
+"""
+
+from __future__ import annotations
+
+import os
+
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[threads] = "1"
+
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from importlib import import_module
+from pathlib import Path
+
+import tables
+
+from rubfric.campaign import Campaign, load
+from rubfric.collection import collect
+from rubfric.dataset import read, write
+from rubfric.simulation import simulate
+
+PROJECT = Path(__file__).resolve().parents[2]
+# Stands in for rubfric/jobs.py: a job that only touches its outputs.
+TOUCH = """
+from pathlib import Path
+
+def warm_up():
+    pass
+
+def run(script, log, **arguments):
+    outputs = arguments.get("outputs") or [arguments["output"]]
+    for path in outputs:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).touch()
+"""
+
+
+def copy_project(folder: Path) -> Path:
+    """Copy what the workflow needs."""
+    target = folder / "project"
+    target.mkdir()
+    for name in ("Snakefile", "workflow", "rubfric", "config", "profiles"):
+        source = PROJECT / name
+        if source.is_dir() and not source.is_symlink():
+            shutil.copytree(source, target / name, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy2(source, target / name, follow_symlinks=False)
+    return target
+
+
+def snakemake(project: Path) -> float:
+    """Run the campaign in a copy of the project and return its wall time, s."""
+    environment = os.environ | {"PYTHONPATH": str(project)}
+    started = time.perf_counter()
+    done = subprocess.run(
+        [sys.executable, "-m", "snakemake", "-j2"], cwd=project, env=environment, capture_output=True, text=True
+    )
+    elapsed = time.perf_counter() - started
+    if done.returncode:
+        raise SystemExit(done.stdout + done.stderr)
+    return elapsed
+
+
+def in_process(campaign: Campaign, folder: Path) -> tuple[float, list[Path]]:
+    """Return the sum of the scenes' times without start-up or files, s, and their results."""
+    scenes = campaign.scenes()
+    simulate(next(iter(scenes.values())))
+    total, paths = 0.0, []
+    for name, scene in scenes.items():
+        started = time.perf_counter()
+        result = simulate(scene)
+        total += time.perf_counter() - started
+        paths.append(folder / f"{name}.nc")
+        write(result, paths[-1])
+    return total, paths
+
+
+def drawing(campaign: Campaign, paths: list[Path], folder: Path) -> float:
+    """Return the time to draw and save every figure once, s, imports excluded."""
+    collected = collect(paths)
+    fields = [read(folder / f"{name}.nc") for name in campaign.field_scenes()]
+    study = campaign.aspect_study
+    choice = {"scales": list(study.scales), "pressures": list(study.pressures), "aspects": list(study.aspects)}
+    calls = {
+        "fig1": (collected, choice),
+        "fig2": (fields, {}),
+        "fig3": (collected, choice),
+        "fig4": (fields, {}),
+        "fig6": (collected, {"aspect": campaign.aspect}),
+        "fig7": (collected, {"aspect": campaign.aspect, "pressure": campaign.figures.total_pressure}),
+    }
+    save = import_module("rubfric.figures.style").save
+    draws = {name: import_module(f"rubfric.figures.{name}").draw for name in calls}
+    save(draws["fig1"](collected, **choice), folder / "first.pdf", folder / "first.png")
+    started = time.perf_counter()
+    for name, (data, arguments) in calls.items():
+        save(draws[name](data, **arguments), folder / f"{name}.pdf", folder / f"{name}.png")
+    return time.perf_counter() - started
+
+
+def main() -> None:
+    """Measure, print and publish."""
+    campaign = load(PROJECT / "config/config.yaml")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        project = copy_project(folder)
+        whole = snakemake(project)
+        shutil.rmtree(project / "results")
+        shutil.rmtree(project / ".snakemake")
+        (project / "rubfric/jobs.py").write_text(TOUCH, encoding="utf-8")
+        touching = snakemake(project)
+        scenes, paths = in_process(campaign, folder)
+        figures = drawing(campaign, paths, folder)
+    floor = scenes / 2.0 + touching + figures
+    rows: list[tuple[str, ...]] = [
+        ("default campaign, `snakemake -j2`", "wall time"),
+        (f"{len(paths)} scenes, tables and figures, from nothing", f"{whole:.1f} s"),
+        ("floor", f"{floor:.1f} s"),
+        ("- half the sum of the scenes' in-process times", f"{scenes / 2.0:.1f} s"),
+        ("- the same DAG, jobs that only touch their outputs", f"{touching:.1f} s"),
+        ("- drawing every figure once", f"{figures:.1f} s"),
+        ("campaign over floor", f"{whole / floor:.2f}"),
+    ]
+    text = f"{tables.markdown(rows)}\n\n{tables.machine()}."
+    print(text)
+    tables.publish("campaign", text)
+
+
+if __name__ == "__main__":
+    main()
