@@ -1,0 +1,108 @@
+"""Friction over speed and over the height-to-width ratio: the same campaign seen from two sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import fig1, fig3, style
+
+Maker = Callable[..., xr.Dataset]
+ASPECTS = (0.25, 0.75, 1.5)
+
+
+def test_fig1_has_a_panel_per_pressure_and_a_line_per_ratio(make_campaign: Maker, series: Callable[..., Any]) -> None:
+    campaign = make_campaign()
+    figure = fig1.draw(campaign, [1], [0.5, 5.0], ASPECTS)
+    assert len(figure.axes) == 2
+    for panel, pressure in zip(figure.axes, (0.5, 5.0), strict=True):
+        lines = series(panel)
+        assert len(lines) == 3
+        for (speeds, values), aspect in zip(lines, ASPECTS, strict=True):
+            chosen = campaign["friction_coefficient"].sel(scale=1, pressure=pressure, aspect=aspect)
+            assert speeds == list(campaign["velocity"].values)
+            assert values == list(chosen.values)
+
+
+def test_fig1_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
+    said = words(fig1.draw(make_campaign(), [1, 2], [5.0], ASPECTS))
+    for text in ("sliding speed (mm/s)", "friction coefficient (-)", "height-to-width\nratio (-)", "0.25", "1.5"):
+        assert text in said
+    assert "(a) scale 1, pressure 5 MPa" in said
+    assert "(b) scale 2, pressure 5 MPa" in said
+
+
+def test_fig3_has_a_panel_per_pressure_and_a_line_per_speed(make_campaign: Maker, series: Callable[..., Any]) -> None:
+    campaign = make_campaign()
+    # Ratios in any order.
+    figure = fig3.draw(campaign, [2], [0.5, 5.0], ASPECTS[::-1])
+    for panel, pressure in zip(figure.axes, (0.5, 5.0), strict=True):
+        lines = series(panel)
+        assert len(lines) == campaign.sizes["velocity"]
+        for (ratios, values), speed in zip(lines, campaign["velocity"].values, strict=True):
+            assert ratios == list(ASPECTS)
+            chosen = campaign["friction_coefficient"].sel(scale=2, pressure=pressure, velocity=speed)
+            assert values == list(chosen.values)
+
+
+def test_fig3_says_what_it_shows_and_marks_the_typical_ratio(
+    make_campaign: Maker, words: Callable[..., list[str]]
+) -> None:
+    figure = fig3.draw(make_campaign(), [1], [0.5, 5.0], ASPECTS)
+    said = words(figure)
+    for text in ("height-to-width ratio (-)", "friction coefficient (-)", "sliding speed\n(mm/s)"):
+        assert text in said
+    assert "10\N{NO-BREAK SPACE}000" in said
+    for panel in figure.axes:
+        (mark,) = (line for line in panel.get_lines() if line.get_gid() == "typical")
+        assert list(mark.get_xdata()) == [0.75, 0.75]
+    assert 0.75 in figure.axes[0].get_xticks()
+
+
+def test_fig3_is_logarithmic_unless_a_friction_is_zero(make_campaign: Maker) -> None:
+    campaign = make_campaign()
+    assert fig3.draw(campaign, [1], [5.0], ASPECTS).axes[0].get_yscale() == "log"
+    campaign["friction_coefficient"].loc[{"velocity": 0.1}] = 0.0
+    assert fig3.draw(campaign, [1], [5.0], ASPECTS).axes[0].get_yscale() == "linear"
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+@pytest.mark.parametrize(
+    ("asked", "complaint"),
+    [
+        (([5], [5.0], ASPECTS), r"^scale 5 is not in the campaign"),
+        (([1], [2.0], ASPECTS), r"^pressure 2 MPa is not in the campaign"),
+        (([1], [5.0], (0.25, 1.0)), r"^height-to-width ratio 1 is not in the campaign"),
+        (([], [5.0], ASPECTS), r"^the figure has 0 panels"),
+    ],
+)
+def test_what_is_absent_is_refused(
+    make_campaign: Maker, module: ModuleType, asked: tuple[Any, ...], complaint: str
+) -> None:
+    with pytest.raises(InvalidInput, match=complaint):
+        module.draw(make_campaign(), *asked)
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+def test_block_that_was_not_run_is_refused(make_campaign: Maker, module: ModuleType) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient"].loc[{"scale": 1, "pressure": 5.0, "aspect": 1.5}] = np.nan
+    with pytest.raises(InvalidInput, match=r"^the campaign holds no friction coefficient at scale 1, pressure 5 MPa, "):
+        module.draw(campaign, [1], [5.0], ASPECTS)
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+def test_gaps_zeros_and_single_points_are_drawn(make_campaign: Maker, module: ModuleType, tmp_path: Path) -> None:
+    gaps, zeros = make_campaign(), make_campaign()
+    gaps["friction_coefficient"].loc[{"velocity": [1.0, 100.0]}] = np.nan
+    zeros["friction_coefficient"][:] = 0.0
+    style.save(module.draw(gaps, [1, 2], [5.0], ASPECTS), tmp_path / "gaps.png")
+    style.save(module.draw(zeros, [1], [5.0], ASPECTS), tmp_path / "zeros.pdf")
+    style.save(module.draw(make_campaign(speeds=(10.0,)), [1], [5.0], [0.75]), tmp_path / "single.png")

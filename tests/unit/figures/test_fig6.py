@@ -1,0 +1,79 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import fig6, style
+from rubfric.figures.peaks import rings
+
+Maker = Callable[..., xr.Dataset]
+
+
+def test_panels_run_from_the_finest_scale_to_the_coarsest(make_campaign: Maker) -> None:
+    figure = fig6.draw(make_campaign(), 0.75)
+    titles = [panel.get_title(loc="left") for panel in figure.axes]
+    assert titles == ["(a) micro-scale (scale 4)", "(b) scale 3", "(c) scale 2", "(d) scale 1"]
+
+
+def test_lines_are_the_campaign_s(make_campaign: Maker, series: Callable[..., Any]) -> None:
+    campaign = make_campaign()
+    for panel, scale in zip(fig6.draw(campaign, 0.75).axes, (4, 3, 2, 1), strict=True):
+        lines = series(panel)
+        assert len(lines) == 3
+        for (_, values), pressure in zip(lines, (0.5, 1.0, 5.0), strict=True):
+            chosen = campaign["friction_coefficient"].sel(scale=scale, pressure=pressure, aspect=0.75)
+            assert values == list(chosen.values)
+
+
+def test_peak_of_every_line_is_marked(make_campaign: Maker) -> None:
+    campaign = make_campaign()
+    figure = fig6.draw(campaign, 0.75)
+    for panel, scale, speed in zip(figure.axes, (4, 3, 2, 1), (1.0, 10.0, 100.0, 1000.0), strict=True):
+        marks = [(ring.get_xdata()[0], ring.get_ydata()[0]) for ring in rings(panel)]
+        highest = campaign["friction_coefficient"].sel(scale=scale, aspect=0.75).max("velocity").values
+        assert marks == [(speed, value) for value in highest]
+
+
+def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
+    said = words(fig6.draw(make_campaign(), 0.75))
+    for text in ("sliding speed (mm/s)", "friction coefficient (-)", "nominal pressure\n(MPa)", "0.5", "sampled peak"):
+        assert text in said
+
+
+@pytest.mark.parametrize("scales", [(1,), (1, 2), (1, 2, 3), (1, 2, 3, 4, 5)])
+def test_any_number_of_scales(make_campaign: Maker, scales: tuple[int, ...]) -> None:
+    figure = fig6.draw(make_campaign(scales=scales), 0.75)
+    assert len(figure.axes) == len(scales)
+
+
+def test_pressures_of_other_blocks_are_left_out(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient"].loc[{"pressure": 1.0, "aspect": 0.75}] = np.nan
+    figure = fig6.draw(campaign, 0.75)
+    assert all(len(rings(panel)) == 2 for panel in figure.axes)
+    assert "1" not in words(figure)
+
+
+def test_what_is_absent_is_refused(make_campaign: Maker) -> None:
+    campaign = make_campaign()
+    with pytest.raises(InvalidInput, match=r"^height-to-width ratio 1 is not in the campaign, which has 0\.25"):
+        fig6.draw(campaign, 1.0)
+    campaign["friction_coefficient"].loc[{"scale": 2}] = np.nan
+    with pytest.raises(InvalidInput, match=r"^the campaign holds no friction coefficient at height-to-width ratio 0"):
+        fig6.draw(campaign, 0.75)
+
+
+def test_gaps_zeros_and_single_points_are_drawn(make_campaign: Maker, tmp_path: Path) -> None:
+    gaps, zeros, single = make_campaign(), make_campaign(), make_campaign(speeds=(10.0,), pressures=(5.0,))
+    gaps["friction_coefficient"].loc[{"velocity": 10.0, "scale": 3}] = np.nan
+    gaps["friction_coefficient"].loc[{"pressure": 5.0, "scale": 2}] = np.nan
+    zeros["friction_coefficient"][:] = 0.0
+    for name, campaign in {"gaps": gaps, "zeros": zeros, "single": single}.items():
+        style.save(fig6.draw(campaign, 0.75), tmp_path / f"{name}.png")
+    assert not any(rings(panel) for panel in fig6.draw(zeros, 0.75).axes)

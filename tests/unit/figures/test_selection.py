@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from rubfric.errors import InvalidInput
+from rubfric.figures.selection import described, friction
+
+
+def test_line_is_picked_in_ascending_order(make_campaign: Callable[..., xr.Dataset]) -> None:
+    campaign = make_campaign()
+    line = friction(campaign.isel(velocity=slice(None, None, -1)), scale=2, pressure=5.0, aspect=0.75)
+    expected = campaign["friction_coefficient"].sel(scale=2, pressure=5.0, aspect=0.75)
+    np.testing.assert_array_equal(line["velocity"].values, campaign["velocity"].values)
+    np.testing.assert_array_equal(line.values, expected.values)
+
+
+def test_rounding_of_coordinates_does_not_matter(make_campaign: Callable[..., xr.Dataset]) -> None:
+    campaign = make_campaign(pressures=(0.1 + 0.2, 1.0))
+    assert friction(campaign, pressure=0.3).sizes["velocity"] == 6
+
+
+@pytest.mark.parametrize(
+    ("chosen", "complaint"),
+    [
+        ({"pressure": 2.0}, r"^pressure 2 MPa is not in the campaign, which has 0\.5, 1, 5 MPa$"),
+        ({"scale": 5}, r"^scale 5 is not in the campaign, which has 1, 2, 3, 4$"),
+        ({"velocity": 3.0}, r"^speed 3 mm/s is not in the campaign, which has 0\.1, 1, 10, 100, 1000, 10.000 mm/s$"),
+        ({"aspect": 1.0}, r"^height-to-width ratio 1 is not in the campaign, which has 0\.25, 0\.75, 1\.5$"),
+    ],
+)
+def test_missing_values_are_refused(
+    make_campaign: Callable[..., xr.Dataset], chosen: dict[str, float], complaint: str
+) -> None:
+    with pytest.raises(InvalidInput, match=complaint):
+        friction(make_campaign(), **chosen)
+
+
+def test_nothing_but_gaps_is_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient"].loc[{"scale": 1, "pressure": 5.0}] = np.nan
+    with pytest.raises(InvalidInput, match=r"^the campaign holds no friction coefficient at scale 1, pressure 5 MPa$"):
+        friction(campaign, scale=1, pressure=5.0)
+
+
+def test_other_datasets_are_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
+    with pytest.raises(InvalidInput, match=r"^the campaign lacks the variable friction_coefficient$"):
+        friction(xr.Dataset())
+    with pytest.raises(InvalidInput, match=r"^the friction coefficients of the campaign lack the axis aspect$"):
+        friction(make_campaign().isel(aspect=0, drop=True))
+
+
+def test_places_are_described_with_their_units() -> None:
+    text = described(scale=1, velocity=10.0, pressure=0.5, aspect=0.75)
+    assert text == "scale 1, speed 10 mm/s, pressure 0.5 MPa, height-to-width ratio 0.75"

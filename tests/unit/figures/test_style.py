@@ -1,0 +1,160 @@
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import style
+
+
+@pytest.fixture
+def figure() -> Figure:
+    with style.applied():
+        drawn = Figure(figsize=(2.0, 1.5), layout="constrained")
+        axes = drawn.subplots()
+        axes.plot([0.0, 1.0], [1.0, 2.0], **style.lines(1)[0])
+        axes.set_xlabel("friction coefficient (-)")
+    return drawn
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.1, "0.1"),
+        (0.30000000000000004, "0.3"),
+        (10.0, "10"),
+        (1000.0, "1000"),
+        (10000.0, "10\N{NO-BREAK SPACE}000"),
+        (1234567.5, "1\N{NO-BREAK SPACE}234\N{NO-BREAK SPACE}567.5"),
+        (0.0, "0"),
+        (-12000.0, "-12\N{NO-BREAK SPACE}000"),
+    ],
+)
+def test_numbers_are_written_plainly(value: float, text: str) -> None:
+    assert style.written(value) == text
+
+
+def test_columns_of_the_journal() -> None:
+    np.testing.assert_allclose(np.array([style.COLUMN, style.DOUBLE_COLUMN]) * 25.4, [88.0, 180.0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("count", [2, 4, 8])
+def test_colours_grow_lighter_in_even_steps_of_grey(count: int) -> None:
+    linear = np.array([colour[:3] for colour in style.colours(count)]) ** 2.2
+    lightness = 116.0 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16.0
+    steps = np.diff(lightness)
+    assert np.all(steps > 0.5 * (lightness[-1] - lightness[0]) / (count - 1))
+    # Dark enough for a line on white paper.
+    assert lightness[-1] < 75.0
+
+
+def test_every_line_is_told_apart_without_colour() -> None:
+    looks = style.lines(40)
+    pairs = {(look["marker"], str(look["linestyle"])) for look in looks}
+    assert len(pairs) == 40
+
+
+def test_look_is_gone_after_drawing() -> None:
+    before = dict(mpl.rcParams)
+    with style.applied():
+        assert mpl.rcParams["pdf.fonttype"] == 42
+    assert dict(mpl.rcParams) == before
+
+
+def test_look_does_not_depend_on_the_user_s_settings(tmp_path: Path) -> None:
+    @style.applied()
+    def draw() -> Figure:
+        figure = Figure(figsize=(1.0, 1.0))
+        figure.subplots().plot([0.0, 1.0], [0.0, 1.0])
+        return figure
+
+    style.save(draw(), tmp_path / "plain.png")
+    with mpl.rc_context({"axes.facecolor": "red", "font.size": 20.0, "savefig.dpi": 50.0}):
+        style.save(draw(), tmp_path / "own.png")
+    assert (tmp_path / "own.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
+
+
+def test_saving_writes_both_formats_and_makes_the_folder(figure: Figure, tmp_path: Path) -> None:
+    pdf, png = tmp_path / "new" / "folder" / "a.pdf", tmp_path / "new" / "folder" / "a.png"
+    style.save(figure, pdf, png)
+    assert pdf.read_bytes().startswith(b"%PDF")
+    head = png.read_bytes()
+    assert head.startswith(b"\x89PNG")
+    # 2 by 1.5 inches at 300 dots per inch.
+    assert (int.from_bytes(head[16:20]), int.from_bytes(head[20:24])) == (600, 450)
+    assert sorted(path.name for path in pdf.parent.iterdir()) == ["a.pdf", "a.png"]
+
+
+def test_fonts_are_embedded_as_truetype_and_no_date_is_stored(figure: Figure, tmp_path: Path) -> None:
+    style.save(figure, tmp_path / "a.pdf")
+    content = (tmp_path / "a.pdf").read_bytes()
+    assert b"/FontFile2" in content
+    assert b"/Type3" not in content
+    assert b"CreationDate" not in content
+
+
+def test_saving_twice_gives_the_same_bytes(figure: Figure, tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        style.save(figure, tmp_path / f"{name}.pdf", tmp_path / f"{name}.png")
+    assert (tmp_path / "first.pdf").read_bytes() == (tmp_path / "second.pdf").read_bytes()
+    assert (tmp_path / "first.png").read_bytes() == (tmp_path / "second.png").read_bytes()
+
+
+def test_other_processes_give_the_same_bytes(tmp_path: Path) -> None:
+    program = (
+        "import sys; from matplotlib.figure import Figure; from rubfric.figures import style\n"
+        "with style.applied():\n"
+        "    figure = Figure(figsize=(1.0, 1.0)); axes = figure.subplots()\n"
+        "    axes.fill_between([0.0, 1.0], [0.0, 1.0], hatch='//'); axes.set_title('coefficient')\n"
+        "style.save(figure, sys.argv[1])\n"
+    )
+    for seed in ("1", "2"):
+        environment = os.environ | {"PYTHONHASHSEED": seed}
+        command = [sys.executable, "-c", program, str(tmp_path / f"{seed}.pdf")]
+        subprocess.run(command, check=True, env=environment)
+    assert (tmp_path / "1.pdf").read_bytes() == (tmp_path / "2.pdf").read_bytes()
+
+
+def test_interrupted_saving_leaves_the_old_file_and_nothing_else(
+    figure: Figure, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target = tmp_path / "a.pdf"
+    target.write_text("old")
+
+    def interrupt(path: Path, **_: object) -> None:
+        Path(path).write_text("half")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(figure, "savefig", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        style.save(figure, target)
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_other_formats_are_refused_before_anything_is_written(figure: Figure, tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match=r"cannot be saved as .*a\.svg, but its name must end in \.pdf or \.png$"):
+        style.save(figure, tmp_path / "a.pdf", tmp_path / "a.svg")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_threads_draw_what_one_draws(tmp_path: Path) -> None:
+    @style.applied()
+    def draw(place: int) -> Path:
+        figure = Figure(figsize=(1.0, 1.0), layout="constrained")
+        figure.subplots().plot([1.0, 2.0], [0.5, 1.5])
+        target = tmp_path / f"{place}.png"
+        style.save(figure, target)
+        return target
+
+    with ThreadPoolExecutor(4) as pool:
+        contents = {path.read_bytes() for path in pool.map(draw, range(8))}
+    assert len(contents) == 1
