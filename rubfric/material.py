@@ -159,6 +159,8 @@ class Material:
 
     def complex_bulk_modulus(self, frequency: ArrayLike) -> Complex:
         """Return K*(w), MPa, for angular frequencies in rad/s of any shape."""
+        if self.bulk == "elastic":
+            return np.full(np.shape(frequency), self.long_term_bulk_modulus, dtype=np.complex128)
         transfer = self.branch_transfer(frequency)
         return self.long_term_bulk_modulus + np.tensordot(self.branch_bulk_moduli, transfer, axes=1)
 

@@ -11,7 +11,7 @@ from scipy.fft import next_fast_len
 from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
 from rubfric.contact import Contact, full_contact, solve_contact
-from rubfric.reference import layer_compliance
+from rubfric.reference import full_contact_pressure, layer_compliance, westergaard_contact_fraction
 from rubfric.scene import Scene
 from rubfric.smallstrain import HarmonicResponse, respond
 
@@ -20,6 +20,10 @@ _SCOUT_COLUMNS = 64
 _SCOUT_NODES = 16
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 _COLUMN_STEP = 8
+# The first guess of the contact: that of an elastic half-space, this much wider.
+_FIRST_GUESS = 1.2
+# Full contact is not looked for below this share of the pressure that fills the road under a closed-form layer.
+_FULL_CONTACT_FROM = 0.9
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
 _SHORTFALL = 0.1
 
@@ -76,10 +80,12 @@ def solve(scene: Scene) -> SteadySolution:
     NotConverged
         With the scene's name, step and residual.
     """
-    filled = _solve_full(scene)
-    if filled is not None:
-        return filled
-    columns, touching, iterations = _scout(scene)
+    filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
+    if scene.pressure >= _FULL_CONTACT_FROM * filling:
+        filled = _solve_full(scene)
+        if filled is not None:
+            return filled
+    columns, touching, iterations = _scout(scene, filling)
     numerics = scene.numerics
     while True:
         block = _mesh(scene, columns)
@@ -119,14 +125,17 @@ def _mesh(scene: Scene, columns: int) -> Block:
     )
 
 
-def _scout(scene: Scene) -> tuple[int, Flags, int]:
+def _scout(scene: Scene, filling: float) -> tuple[int, Flags, int]:
     """Return the columns that the scene needs, a first guess of the contact, and the steps it took.
 
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
+    ``filling`` is the pressure, MPa, that fills the road under it.
     """
     numerics, road = scene.numerics, scene.road
-    touching = np.ones(_SCOUT_COLUMNS // 2, dtype=bool)
     columns, iterations = _SCOUT_COLUMNS, 0
+    guess = _FIRST_GUESS * float(westergaard_contact_fraction(scene.pressure / filling))
+    from_crest = np.abs((np.arange(columns) / columns + 0.25) % 1.0 - 0.5)  # in wavelengths
+    touching = from_crest <= 0.5 * guess
     while True:
         harmonics = np.arange(1, columns // 2 + 1)
         compliance = layer_compliance(scene.material, road, scene.velocity, scene.height, scene.plane, harmonics)

@@ -157,7 +157,7 @@ def test_grid_that_is_no_list_is_refused(values: object) -> None:
 
 @pytest.mark.parametrize("values", [[0.1, 5.0, 0.10], [0.3, 1.0, 0.1 + 0.2], [10, 2, 1.0e1]])
 def test_duplicates_in_a_grid_are_refused_however_they_are_written(values: list[float]) -> None:
-    sentence = r"^velocities\[2\] is \S+ mm/s, the same number as velocities\[0\]; each may stand once$"
+    sentence = r"^velocities\[2\] is \S+ mm/s, the same as velocities\[0\]; each may stand once$"
     with pytest.raises(InvalidInput, match=sentence):
         checks.grid("velocities", values, "mm/s")
 

@@ -45,6 +45,11 @@ def test_closure_without_friction_is_zero() -> None:
     assert energies(0.0, 0.0, 1e-16).closure == 0.0
 
 
+@pytest.mark.xfail(strict=True, reason="the bound on round-off, 1e-14, is that of the tiniest contacts themselves")
+def test_round_off_of_the_contact_route_is_no_friction() -> None:
+    assert energies(0.0, 0.0, 3e-14).closure == 0.0
+
+
 @BULK
 def test_stress_power_equals_viscous_dissipation_harmonic_by_harmonic(
     paper_rubber: Material, bulk: str, random_strain: StrainHarmonics

@@ -172,7 +172,10 @@ def test_bad_config_is_refused(config: Config, case: Bad) -> None:
         ("rubbers.zhou2019.shear_fractions", []),
         ("rubbers.zhou2019.density", MISSING),
         ("numerics.columns_min", 64.0),
-        ("rubbers.Rubber_2-b", {"youngs_modulus": 1, "poissons_ratio": 0, "shear_fractions": [], "relaxation_times": []}),
+        (
+            "rubbers.Rubber_2-b",
+            {"youngs_modulus": 1, "poissons_ratio": 0, "shear_fractions": [], "relaxation_times": []},
+        ),
     ],
 )
 def test_legal_config_is_accepted_by_schema_and_reader(config: Config, at: str, value: Any) -> None:

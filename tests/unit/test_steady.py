@@ -62,6 +62,19 @@ def test_more_contact_nodes_make_a_finer_mesh(paper_scene: SceneMaker) -> None:
     assert np.count_nonzero(fine.contact.touching) >= 0.9 * 128
 
 
+def test_mesh_is_refined_where_the_first_guess_was_too_coarse(
+    paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = paper_scene(1000.0, 0.5)
+    found = steady.solve(scene)
+    monkeypatch.setattr(steady, "_scout", lambda scene: (256, np.ones(256, dtype=bool), 3))
+    refined = steady.solve(scene)
+    assert refined.resolved
+    assert np.count_nonzero(refined.contact.touching) >= 0.9 * 64
+    assert refined.iterations > 3 + refined.contact.iterations  # all solves count
+    assert refined.contact_fraction == pytest.approx(found.contact_fraction, rel=0.03)
+
+
 def test_contact_too_small_for_the_finest_mesh_is_not_resolved(paper_scene: SceneMaker) -> None:
     solution = steady.solve(paper_scene(1000.0, 0.02, numerics=Numerics(columns_max=512)))
     assert solution.block.columns == 512

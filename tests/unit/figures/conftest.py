@@ -71,18 +71,17 @@ def make_result() -> ResultMaker:
 
 @pytest.fixture(scope="session")
 def words() -> Callable[[Figure], list[str]]:
-    """Return a function that lists all that is written in a figure, but for the numbers at ticks."""
+    """Return a function that lists all that is written in a figure, titles and legends included."""
 
     def read(figure: Figure) -> list[str]:
-        ticks = {id(label) for axes in figure.axes for label in (*axes.get_xticklabels(), *axes.get_yticklabels())}
-        return [text.get_text() for text in figure.findobj(Text) if text.get_text() and id(text) not in ticks]
+        return [text.get_text() for text in figure.findobj(Text)]
 
     return read
 
 
 @pytest.fixture(scope="session")
 def series() -> Callable[[Axes], list[tuple[list[float], list[float]]]]:
-    """Return a function that lists the data of a panel's lines of more than one point, marks left out."""
+    """Return a function that lists the data of a panel's lines, marks left out."""
 
     def read(panel: Axes) -> list[tuple[list[float], list[float]]]:
         lines = (line for line in panel.get_lines() if line.get_gid() is None)

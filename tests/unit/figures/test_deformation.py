@@ -48,9 +48,15 @@ def test_mean_compression_is_left_out(make_result: Callable[..., xr.Dataset]) ->
         assert upper.mean() == pytest.approx(0.15, rel=1e-9)
 
 
+def test_low_block_ends_where_its_upper_face_is(make_result: Callable[..., xr.Dataset]) -> None:
+    block = deform(make_result(aspect=0.25), 0.0, 0.2, HEIGHTS)
+    # 0.05 mm high, give or take what the road still lifts there.
+    assert block.outline[:, 1].max() == pytest.approx(0.05, abs=0.004)
+
+
 def test_field_is_that_of_the_nodes(make_result: Callable[..., xr.Dataset]) -> None:
     result = make_result(aspect=0.5)
-    # Half the density everywhere above a certain row: between its nodes and the next the image lies in between.
+    # A density of ten times the height, which the image must keep between the rows of nodes too.
     result["strain_energy_density"] = result["mesh_node_y"] * 10.0
     result["displacement_y"] = 0.0 * result["displacement_y"]
     block = deform(result, 0.0, 0.2, np.linspace(0.0, 0.1, 11))

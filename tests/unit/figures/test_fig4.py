@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -80,15 +81,16 @@ def test_figure_says_what_it_shows(results: list[xr.Dataset], words: Callable[..
     assert "without the mean compression of the block (3.6 % at 0.2 MPa, 90 % at 5 MPa)" in note
 
 
-def test_nothing_is_written_over_anything_else(results: list[xr.Dataset]) -> None:
-    figure = fig4.draw(results)
+@pytest.mark.parametrize("speeds", [(10.0,), (1.0, 100.0), (0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0)])
+def test_nothing_is_written_over_anything_else(make_result: Maker, speeds: tuple[float, ...]) -> None:
+    figure = fig4.draw([make_result(pressure, speed) for pressure in (0.2, 5.0) for speed in speeds])
     figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in figure.texts]
-    boxes += [panel.get_tightbbox() for panel in figure.axes]
-    below = figure.texts[-1].get_window_extent()
-    assert below.y1 < min(box.y0 for box in boxes[: -len(figure.axes) - 1])
-    assert all(box.x0 >= 0.0 and box.x1 <= figure.bbox.width for box in boxes)
-    assert all(box.y0 >= 0.0 and box.y1 <= figure.bbox.height for box in boxes)
+    boxes = [text.get_window_extent() for text in figure.texts] + [panel.get_tightbbox() for panel in figure.axes]
+    for one, other in combinations(boxes, 2):
+        assert not one.overlaps(other)
+    for box in boxes:
+        assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
+        assert figure.bbox.y0 <= box.y0 < box.y1 <= figure.bbox.y1
 
 
 def test_result_without_a_road_is_refused(make_result: Maker) -> None:
@@ -96,12 +98,13 @@ def test_result_without_a_road_is_refused(make_result: Maker) -> None:
         fig4.draw([make_result().drop_vars(["road_height", "surface_x"])])
 
 
-def test_low_block_ends_below_the_window(make_result: Maker, tmp_path: Path) -> None:
-    figure = fig4.draw([make_result(aspect=0.25)])
-    clip = figure.axes[0].get_images()[0].get_clip_path()
-    path, _ = clip.get_transformed_path_and_affine()
-    assert path is not None
-    style.save(figure, tmp_path / "low.pdf")
+def test_nothing_is_coloured_outside_the_block(make_result: Maker) -> None:
+    panel, _ = fig4.draw([make_result(aspect=0.25)]).axes
+    outline = panel.get_images()[0].get_clip_path().get_fully_transformed_path().get_extents()
+    low, high = panel.transData.inverted().transform([outline.p0, outline.p1])[:, 1]
+    assert low == pytest.approx(-0.015, abs=1e-6)
+    # The block is 0.05 mm high, the window twice that.
+    assert high == pytest.approx(0.05, abs=0.004)
 
 
 def test_unstrained_block_on_a_flat_road_is_drawn(make_result: Maker, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +52,7 @@ def test_areas_lie_upon_each_other(make_campaign: Maker) -> None:
         heights = corners[np.isclose(corners[:, 0], 10.0), 1]
         bounds.append((heights.min(), heights.max()))
     assert bounds[0][0] == 0.0
-    for below, above in zip(bounds, bounds[1:], strict=False):
+    for below, above in pairwise(bounds):
         assert above[0] == pytest.approx(below[1])
 
 
@@ -65,7 +66,7 @@ def test_peak_of_the_total_is_marked(make_campaign: Maker) -> None:
     (panel,) = fig7.draw(campaign, 0.75, 5.0).axes
     total = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0).sum("scale")
     (ring,) = rings(panel)
-    assert ring.get_xdata()[0] == total["velocity"].values[total.argmax().item()]
+    assert ring.get_xdata()[0] == total["velocity"].values[np.argmax(total.values)]
     assert ring.get_ydata()[0] == pytest.approx(total.max().item())
 
 

@@ -19,7 +19,6 @@ def ticks(panel: Axes, name: str) -> list[str]:
     """Return the numbers that are seen on an axis."""
     axis = getattr(panel, f"{name}axis")
     low, high = axis.get_view_interval()
-    axis.set_tick_params()
     places = [place for place in axis.get_majorticklocs() if low <= place <= high]
     return [str(axis.get_major_formatter()(place)) for place in places]
 

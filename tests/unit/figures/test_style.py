@@ -116,10 +116,13 @@ def test_other_processes_give_the_same_bytes(tmp_path: Path) -> None:
         "    axes.fill_between([0.0, 1.0], [0.0, 1.0], hatch='//'); axes.set_title('coefficient')\n"
         "style.save(figure, sys.argv[1])\n"
     )
-    for seed in ("1", "2"):
-        environment = os.environ | {"PYTHONHASHSEED": seed}
-        command = [sys.executable, "-c", program, str(tmp_path / f"{seed}.pdf")]
-        subprocess.run(command, check=True, env=environment)
+    started = [
+        subprocess.Popen(
+            [sys.executable, "-c", program, str(tmp_path / f"{seed}.pdf")], env=os.environ | {"PYTHONHASHSEED": seed}
+        )
+        for seed in ("1", "2")
+    ]
+    assert [process.wait(timeout=60.0) for process in started] == [0, 0]
     assert (tmp_path / "1.pdf").read_bytes() == (tmp_path / "2.pdf").read_bytes()
 
 

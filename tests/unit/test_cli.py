@@ -1,0 +1,185 @@
+"""One scene from the shell: the numbers of the API, and a sentence for every mistake."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import rubfric
+from rubfric import cli, contact, dataset
+from rubfric.campaign import load
+from rubfric.simulation import simulate
+
+CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"
+SCENE = ["simulate", "--config", str(CONFIG), "--scale", "1", "--velocity", "100", "--pressure", "5"]
+
+
+def printed_friction(text: str) -> str:
+    found = re.search(r"^friction coefficient +(\S+)$", text, re.MULTILINE)
+    assert found
+    return found[1]
+
+
+def test_prints_the_friction_that_the_api_gives(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(SCENE) == 0
+    expected = simulate(load(CONFIG).scene(1, 100, 5))
+    captured = capsys.readouterr()
+    assert printed_friction(captured.out) == f"{float(expected['friction_coefficient']):.5g}"
+    assert captured.err == ""
+
+
+def test_plane_and_aspect_replace_those_of_the_config(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*SCENE, "--plane", "strain", "--aspect", "0.5"]) == 0
+    expected = simulate(load(CONFIG).scene(1, 100, 5, aspect=0.5, plane="strain"))
+    out = capsys.readouterr().out
+    assert printed_friction(out) == f"{float(expected['friction_coefficient']):.5g}"
+    assert "height/width 0.5, plane strain" in out
+
+
+def test_writes_the_result_where_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = tmp_path / "new" / "scene.nc"
+    assert cli.main([*SCENE, "--output", str(target)]) == 0
+    out = capsys.readouterr().out
+    assert out.endswith(f"\nWritten to {target}\n")
+    result = dataset.read(target)
+    assert result.attrs["scene"] == "scale1_v100_p5_aspect0.75_stress"
+    assert printed_friction(out) == f"{float(result['friction_coefficient']):.5g}"
+
+
+def test_one_config_is_laid_over_the_other(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlay = tmp_path / "strain.yaml"
+    overlay.write_text("plane: strain\n")
+    assert cli.main([*SCENE, "--config", str(overlay)]) == 0
+    assert "plane strain" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--velocity", "-1"], "velocity is -1 mm/s, but must be greater than 0"),
+        (["--pressure", "0"], "pressure is 0 MPa, but must be greater than 0"),
+        (["--pressure", "nan"], "pressure is nan, but must be a finite number"),
+        (["--velocity", "inf"], "velocity is inf, but must be a finite number"),
+        (["--aspect", "0"], "aspect is 0, but must be greater than 0"),
+        (["--scale", "5"], "scale is 5, but must be one of the road's scales, 1 to 4"),
+        (["--scale", "0"], "scale is 0, but must be a whole number of at least 1"),
+    ],
+)
+def test_bad_value_gives_one_sentence(options: list[str], sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*SCENE, *options]) == 2
+    captured = capsys.readouterr()
+    assert captured.err == f"rubfric: {sentence}\n"
+    assert captured.out == ""
+
+
+def test_bad_config_gives_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlay = tmp_path / "bad.yaml"
+    overlay.write_text("grid:\n  velocity: [1]\n")
+    assert cli.main([*SCENE, "--config", str(overlay)]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("rubfric: grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect")
+    assert error.count("\n") == 1
+
+
+def test_missing_config_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*SCENE, "--config", str(tmp_path / "nowhere.yaml")]) == 2
+    error = capsys.readouterr().err
+    assert "nowhere.yaml" in error
+    assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["simulate", "--scale", "1", "--velocity", "1"], "required: --pressure"),
+        ([*SCENE, "--velocity", "fast"], "invalid float value: 'fast'"),
+        ([*SCENE, "--plane", "flat"], "invalid choice: 'flat'"),
+        (["simulat"], "invalid choice: 'simulat'"),
+    ],
+)
+def test_wrong_usage_is_refused(arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        cli.main(arguments)
+    assert caught.value.code == 2
+    assert says in capsys.readouterr().err
+
+
+def test_scene_without_a_result_is_no_bad_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(contact, "MOST_STEPS", 1)
+    target = tmp_path / "scene.nc"
+    assert cli.main([*SCENE, "--pressure", "0.5", "--output", str(target)]) == 1
+    error = capsys.readouterr().err
+    assert re.fullmatch(r"rubfric: scale1_v100_p0.5_aspect0.75_stress: not converged after 1 steps, .* is \d+\n", error)
+    assert not target.exists()
+
+
+def test_place_that_cannot_be_written_is_no_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").touch()
+    assert cli.main([*SCENE, "--output", str(tmp_path / "file" / "scene.nc")]) == 1
+    error = capsys.readouterr().err
+    assert str(tmp_path / "file") in error
+    assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["simulate", "--help"]])
+def test_help_shows_an_example(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        cli.main(arguments)
+    assert caught.value.code == 0
+    assert "rubfric simulate --scale 1 --velocity 100 --pressure 5" in capsys.readouterr().out
+
+
+def test_help_names_the_unit_of_every_quantity(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        cli.main(["simulate", "--help"])
+    out = capsys.readouterr().out
+    assert re.search(r"--velocity V +sliding speed, mm/s", out)
+    assert re.search(r"--pressure P +nominal pressure, MPa", out)
+
+
+def test_without_a_command_help_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([]) == 0
+    assert capsys.readouterr().out.startswith("usage: rubfric")
+
+
+def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["--version"])
+    assert caught.value.code == 0
+    assert capsys.readouterr().out == f"rubfric {rubfric.__version__}\n"
+
+
+def test_default_config_is_that_of_the_working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "config.yaml").touch()
+    assert cli.default_config().resolve() == tmp_path / "config" / "config.yaml"
+
+
+def test_default_config_elsewhere_is_that_of_the_project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.default_config() == CONFIG
+
+
+def test_without_any_config_the_user_is_told_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(cli, "__file__", str(tmp_path / "site-packages" / "rubfric" / "cli.py"))
+    assert cli.main(["simulate", "--scale", "1", "--velocity", "100", "--pressure", "5"]) == 2
+    assert capsys.readouterr().err == (
+        "rubfric: there is no config/config.yaml here: run in the project's folder, or give --config FILE\n"
+    )
+
+
+def test_shell_sees_exit_code_and_sentence(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "rubfric.cli", *SCENE, "--velocity", "0"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == "rubfric: velocity is 0 mm/s, but must be greater than 0\n"

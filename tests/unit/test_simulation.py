@@ -1,0 +1,75 @@
+"""One scene from its parameters to its dataset."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+import rubfric
+from rubfric import contact, energy, steady
+from rubfric.errors import NotConverged
+from rubfric.material import Material
+from rubfric.road import SineScale
+from rubfric.scene import Numerics, Scene
+from rubfric.simulation import simulate
+
+CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"
+
+
+@pytest.fixture
+def scene() -> Scene:
+    rubber = Material("small", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
+    coarse = Numerics(contact_nodes=16, columns_min=64, row_growth=1.4, output_columns=32)
+    return Scene(1, SineScale(0.015, 35.0), 100.0, 0.5, 0.75, rubber, "stress", coarse)
+
+
+def test_dataset_holds_what_the_solver_and_the_energies_say(scene: Scene) -> None:
+    result = simulate(scene)
+    solution = steady.solve(scene)
+    energies = energy.evaluate(solution)
+    assert isinstance(result, xr.Dataset)
+    assert float(result["friction_coefficient"]) == energies.stress_power
+    assert float(result["friction_coefficient_dissipation"]) == energies.dissipation
+    assert float(result["friction_coefficient_contact"]) == energies.contact
+    assert float(result["energy_closure"]) == energies.closure
+    assert result["contact_pressure"].values.tolist() == solution.contact.pressure.tolist()
+    assert int(result["iterations"]) == solution.iterations
+
+
+def test_same_scene_gives_the_same_numbers(scene: Scene) -> None:
+    first, second = (simulate(scene).drop_vars("wall_time") for _ in range(2))
+    xr.testing.assert_identical(first, second)
+
+
+def test_wall_time_is_that_of_the_solution(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([10.0, 12.5])
+    monkeypatch.setattr("rubfric.simulation.time.perf_counter", lambda: next(clock))
+    assert float(simulate(scene)["wall_time"]) == 2.5
+
+
+def test_scene_that_does_not_converge_has_no_result(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact, "MOST_STEPS", 1)
+    with pytest.raises(NotConverged, match=rf"^{scene.name}: not converged after 1 steps, number of .* is \d+$"):
+        simulate(scene)
+
+
+def test_full_contact_needs_no_steps(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact, "MOST_STEPS", 0)
+    assert int(simulate(replace(scene, pressure=50.0))["iterations"]) == 0
+
+
+def test_three_lines_of_the_package_answer() -> None:
+    campaign = rubfric.load(CONFIG)
+    result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
+    assert float(result.friction_coefficient) == pytest.approx(0.1288, abs=5e-5)
+
+
+def test_package_offers_what_it_lists() -> None:
+    for name in rubfric.__all__:
+        assert getattr(rubfric, name) is not None
+    assert set(dir(rubfric)) == set(rubfric.__all__)
+    with pytest.raises(AttributeError, match="module 'rubfric' has no attribute 'simulat'"):
+        rubfric.simulat  # noqa: B018
