@@ -176,7 +176,7 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     for path in paths:
         try:
             entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        except yaml.YAMLError as error:
+        except (yaml.YAMLError, UnicodeDecodeError) as error:
             raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {error}") from error
         if not isinstance(entry, Mapping):
             raise InvalidInput(f"{os.fspath(path)} holds {entry!r}, but must hold the keys {', '.join(_KEYS)}")

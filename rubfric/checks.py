@@ -12,6 +12,8 @@ from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any
 
+import numpy as np
+
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
@@ -21,18 +23,23 @@ def number(key: str, value: Any) -> float:
     """Return ``value`` as a canonical finite float, or raise InvalidInput naming ``key``."""
     if isinstance(value, str):
         raise InvalidInput(f"{key} is the text {value!r}, but must be a number{_yaml_hint(value)}")
-    if isinstance(value, bool) or (not isinstance(value, (int, float)) and not hasattr(value, "__float__")):
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise InvalidInput(f"{key} is {value!r}, but must be a number")
-    converted = float(value)
+    try:
+        converted = float(value)
+    except OverflowError:
+        converted = math.inf
     if not math.isfinite(converted):
         raise InvalidInput(f"{key} is {converted}, but must be a finite number")
-    return float(f"{converted:.{SIGNIFICANT_DIGITS}g}")
+    return float(f"{converted:.{SIGNIFICANT_DIGITS}g}") + 0.0  # no minus zero
 
 
 def _yaml_hint(text: str) -> str:
     try:
         parsed = float(text)
     except ValueError:
+        return ""
+    if not math.isfinite(parsed):
         return ""
     mantissa, _, exponent = f"{parsed:e}".partition("e")
     mantissa = mantissa.rstrip("0")
@@ -123,7 +130,7 @@ def grid(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
 
 def text(key: str, value: Any) -> str:
     """Return a word that is fit to stand in a file name."""
-    if not isinstance(value, str) or not value or not all(c.isalnum() or c in "-_" for c in value):
+    if not isinstance(value, str) or not value or not all(c.isascii() and (c.isalnum() or c in "-_") for c in value):
         raise InvalidInput(f"{key} is {value!r}, but must be a word of letters, digits, '-' and '_'")
     return value
 

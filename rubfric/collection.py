@@ -49,7 +49,11 @@ def collect(paths: Iterable[str | os.PathLike[str]]) -> xr.Dataset:
             raise BrokenResult(f"{os.fspath(path)} is a second result of its scene; keep one of them")
         if shared and shared != common:
             raise BrokenResult(f"{os.fspath(path)} belongs to {common}, but the results before it to {shared}")
-        points[point], shared, road[point[0]] = values, common, scale
+        if road.setdefault(point[0], scale) != scale:
+            raise BrokenResult(
+                f"{os.fspath(path)} has {scale} on scale {point[0]:g}, but another result {road[point[0]]}"
+            )
+        points[point], shared = values, common
     if not points:
         raise BrokenResult("there are no results to collect")
     return _assemble(points, road, shared)

@@ -14,6 +14,7 @@ import xarray as xr
 
 import rubfric
 from rubfric.arrays import Real
+from rubfric.cautions import cautions, nominal_compression
 from rubfric.energy import Energies
 from rubfric.errors import BrokenResult
 from rubfric.steady import SteadySolution
@@ -26,11 +27,6 @@ _SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
     + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
 )
-# Above this share of the shear-wave speed inertia would matter; the model has none.
-_SPEED_LIMIT = 0.3
-# Beyond this nominal compression small strain misjudges the block by more than its material does.
-_COMPRESSION_LIMIT = 0.3
-
 # name: (unit, long name); the scalars of every result, in the order in which they are shown
 SCALARS: dict[str, tuple[str, str]] = {
     "friction_coefficient": ("1", "friction coefficient from stress power"),
@@ -40,7 +36,7 @@ SCALARS: dict[str, tuple[str, str]] = {
     "contact_fraction": ("1", "contact area over nominal area"),
     "maximum_contact_pressure": ("MPa", "largest contact pressure"),
     "nominal_compression": ("1", "nominal strain of the block under the load, positive in compression"),
-    "effective_poissons_ratio": ("1", "Poisson's ratio of the storage moduli at the excitation frequency"),
+    "effective_poissons_ratio": ("1", "real part of the complex Poisson's ratio at the excitation frequency"),
     "shear_wave_speed_ratio": ("1", "sliding speed over shear-wave speed at the excitation frequency"),
     "excitation_frequency": ("rad s-1", "angular frequency at which the road excites the rubber"),
     "columns": ("1", "cells along one wavelength of the mesh that was solved"),
@@ -179,40 +175,6 @@ def _scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> 
     }
 
 
-def nominal_compression(solution: SteadySolution) -> float:
-    """Return p / M, the strain of the relaxed block under its load between tied sides, dimensionless."""
-    return solution.scene.pressure / solution.scene.material.confined_modulus(solution.scene.plane)
-
-
-def warnings(solution: SteadySolution) -> list[str]:
-    """Return what a reader should know before trusting the result, one sentence each; none is an error."""
-    scene = solution.scene
-    frequency = scene.road.excitation_frequency(scene.velocity)
-    poisson = float(scene.material.effective_poissons_ratio(frequency))
-    ratio = float(scene.velocity / scene.material.shear_wave_speed(frequency))
-    compression = nominal_compression(solution)
-    found = []
-    if poisson < 0.0:
-        found.append(
-            f"The effective Poisson's ratio is {poisson:.2f}: the shear modulus has risen past the constant bulk "
-            "modulus; bulk: proportional avoids this."
-        )
-    if ratio > _SPEED_LIMIT:
-        found.append(
-            f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter."
-        )
-    if compression > _COMPRESSION_LIMIT:
-        found.append(
-            f"The load presses the block by {compression:.0%} of its height: small strain is only indicative here."
-        )
-    if not solution.resolved:
-        found.append(
-            f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, "
-            f"fewer than the {scene.numerics.contact_nodes} asked for: raise numerics.columns_max."
-        )
-    return found
-
-
 def _provenance(solution: SteadySolution) -> dict[str, Any]:
     scene = solution.scene
     attributes: dict[str, Any] = {
@@ -227,7 +189,7 @@ def _provenance(solution: SteadySolution) -> dict[str, Any]:
         "rubber": scene.material.name,
         "plane": scene.plane,
         "software": _SOFTWARE,
-        "warnings": "\n".join(warnings(solution)),
+        "warnings": "\n".join(cautions(solution)),
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
     attributes |= {name: getattr(scene, name) for name in units}

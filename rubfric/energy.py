@@ -19,6 +19,8 @@ from rubfric.material import Material
 from rubfric.steady import SteadySolution
 from rubfric.strain import StrainHarmonics, harmonic_strain, synthesise
 
+_ROUND_OFF = 1e-11
+
 
 @dataclass(frozen=True)
 class Energies:
@@ -45,10 +47,12 @@ class Energies:
 
     @property
     def closure(self) -> float:
-        """Largest difference between two routes over the largest of them; 0 without friction."""
+        """Largest difference between two routes over the largest of them.
+
+        Friction below 1e-11 counts as 1e-11: it is the difference of forces that cancel, and round-off.
+        """
         routes = (self.stress_power, self.dissipation, self.contact)
-        largest = max(abs(route) for route in routes)
-        return (max(routes) - min(routes)) / largest if largest > 1e-14 else 0.0
+        return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), _ROUND_OFF)
 
 
 def evaluate(solution: SteadySolution) -> Energies:
@@ -57,12 +61,11 @@ def evaluate(solution: SteadySolution) -> Energies:
     displacement = solution.response.displacement(solution.surface)
     thickness = scene.material.thickness_ratio(frequencies, scene.plane)
     strain = harmonic_strain(block, solution.response, thickness, displacement)
-    # Amplitudes stand for a harmonic and its conjugate, but for the last one, which is its own.
-    pairs = np.where(solution.response.harmonics == block.columns // 2, 1.0, 2.0)
-    scale = block.columns / (scene.velocity * scene.pressure * block.width)
-    power = stress_power(scene.material, frequencies, strain).sum(axis=0) @ pairs
-    lost = viscous_dissipation(scene.material, frequencies, strain).sum(axis=0) @ pairs
-    stored = stored_energy(scene.material, frequencies, strain) @ pairs
+    # An amplitude stands for a harmonic and its conjugate: twice.
+    scale = 2.0 * block.columns / (scene.velocity * scene.pressure * block.width)
+    power = stress_power(scene.material, frequencies, strain).sum()
+    lost = viscous_dissipation(scene.material, frequencies, strain).sum()
+    stored = 2.0 * stored_energy(scene.material, frequencies, strain).sum(axis=1)
     heights = np.diff(block.row_positions)
     rest = scene.pressure**2 / (2.0 * scene.material.confined_modulus(scene.plane))
     slope = scene.road.slope(block.column_positions)

@@ -60,9 +60,8 @@ def run(script: str, log: str, **arguments: Any) -> None:
     JobFailed
         Where ``main`` raised or its process died.
     """
-    worker = _hire()
+    worker = _begin((script, log, arguments))
     try:
-        worker.send((script, log, arguments))
         failure = worker.recv()
     except (EOFError, OSError):
         failure = "the job's process died before it could say why; most likely it was killed"
@@ -73,18 +72,33 @@ def run(script: str, log: str, **arguments: Any) -> None:
         _IDLE.append(worker)
 
 
-def _hire() -> Connection:
-    """Return the line to an idle worker, or to a new one."""
+def _begin(job: tuple[str, str, dict[str, Any]]) -> Connection:
+    """Give a job to a worker and return the line to it, once it has begun; workers that died idle are passed over."""
+    while True:
+        worker, fresh = _hire()
+        try:
+            worker.send(job)
+            worker.recv()
+        except (EOFError, OSError) as error:
+            worker.close()
+            if fresh:
+                raise JobFailed(f"no process could be started for the job (log: {job[1]})") from error
+        else:
+            return worker
+
+
+def _hire() -> tuple[Connection, bool]:
+    """Return the line to an idle worker or to a new one, and whether it is new."""
     warm_up()
     with _LOCK:
         if _IDLE:
-            return _IDLE.pop()
+            return _IDLE.pop(), False
         context = multiprocessing.get_context("forkserver")
         ours, theirs = context.Pipe()
         with _nameless_main():
             context.Process(target=_serve, args=(theirs,), daemon=True).start()
     theirs.close()
-    return ours
+    return ours, True
 
 
 @contextlib.contextmanager
@@ -104,6 +118,7 @@ def _serve(line: Connection) -> None:
     with contextlib.suppress(EOFError):
         while True:
             script, log, arguments = line.recv()
+            line.send("begun")
             line.send(_work(script, log, arguments))
 
 

@@ -190,9 +190,12 @@ class Material:
         return 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear)
 
     def effective_poissons_ratio(self, frequency: ArrayLike) -> Real:
-        """Return Poisson's ratio of the storage moduli at a frequency in rad/s; it may be negative."""
-        shear, bulk = self.complex_shear_modulus(frequency).real, self.complex_bulk_modulus(frequency).real
-        return (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+        """Return the real part of the complex Poisson's ratio (3K* - 2G*) / (2 (3K* + G*)); it may be negative.
+
+        Frequencies in rad/s.
+        """
+        shear, bulk = self.complex_shear_modulus(frequency), self.complex_bulk_modulus(frequency)
+        return ((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))).real
 
     def shear_wave_speed(self, frequency: ArrayLike) -> Real:
         """Return the speed of shear waves, mm/s, with the stiffness |G*| at a frequency in rad/s."""

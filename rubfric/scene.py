@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from rubfric import checks
@@ -107,12 +107,18 @@ class Scene:
     @classmethod
     def from_parameters(cls, parameters: Mapping[str, Any]) -> Scene:
         """Build the scene that ``parameters`` describes; InvalidInput names what is wrong."""
-        given = dict(parameters)
-        road = SineScale(**given.pop("road"))
-        material = Material(**given.pop("material"))
-        return cls(road=road, material=material, numerics=Numerics(**given.pop("numerics")), **given)
+        given = dict(_known("scene parameters", parameters, cls))
+        road = SineScale(**_known("road", given.pop("road"), SineScale))
+        material = Material(**_known("material", given.pop("material"), Material))
+        numerics = Numerics(**_known("numerics", given.pop("numerics"), Numerics))
+        return cls(road=road, material=material, numerics=numerics, **given)
 
     @property
     def digest(self) -> str:
         """SHA-256 of the parameters, for provenance."""
         return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()
+
+
+def _known(key: str, given: Any, kind: type) -> Mapping[str, Any]:
+    names = [field.name for field in fields(kind)]
+    return checks.known_keys(key, given, names, names)

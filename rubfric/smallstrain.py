@@ -5,8 +5,8 @@ sliding rubber feels at the frequency n k v. For each of them the block is a cha
 moduli, K_n = G*(n k v) K_shear + L*(n k v) K_dilatation, and one sweep over the rows from the top to the road
 eliminates it, for all harmonics at once: what remains is the compliance of the surface.
 
-A field is stored by its complex amplitudes: f(x) = f_0 + 2 Re sum_n f_n exp(i n k x), without the 2 for the
-last harmonic, n = columns / 2.
+A field is stored by its complex amplitudes: f(x) = f_0 + 2 Re sum_n f_n exp(i n k x). The last harmonic,
+n = columns / 2, is its own conjugate at the nodes, and stored by half.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class SteadySolution:
 
     @property
     def frequencies(self) -> Real:
-        """N k v, rad/s, of the harmonics that take part, shape (n,)."""
+        """Angular frequencies n k v, rad/s, of the harmonics that take part, shape (n,)."""
         return self.response.harmonics * self.scene.road.excitation_frequency(self.scene.velocity)
 
 
@@ -102,6 +102,7 @@ def solve(scene: Scene) -> SteadySolution:
             break
         columns = finer
     surface = response.compliance * np.fft.rfft(contact.pressure)[1:] / columns
+    surface[-1] = 0.5 * surface[-1].real  # the last harmonic is its own conjugate
     return SteadySolution(scene, block, response, contact, surface, iterations, resolved)
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Complex, Real, Whole
-from rubfric.block import Block, Quadrature
+from rubfric.block import Block
+from rubfric.cell import Quadrature
 from rubfric.smallstrain import HarmonicResponse
 
 

@@ -62,7 +62,10 @@ def main() -> None:
     slowest = [max(ours[index :: len(scenes)]) for index in range(len(scenes))]
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     rows: list[tuple[str, ...]] = [("one scene, in-process", "median", "90 %", "slowest")]
-    for name, times in (("whole scene: mesh, contact, fields, energies", ours), ("bare contact solve, 256 points", least)):
+    for name, times in (
+        ("whole scene: mesh, contact, fields, energies", ours),
+        ("bare contact solve, 256 points", least),
+    ):
         rows.append((name, *(f"{1e3 * value:.1f} ms" for value in quantiles(times))))
     text = (
         f"{tables.markdown(rows)}\n\n"
