@@ -33,7 +33,7 @@ class Numerics:
 
     contact_nodes: int = 64
     columns_min: int = 256
-    columns_max: int = 262144
+    columns_max: int = 32768
     row_growth: float = 1.15
     first_row: float = 1.0
     output_columns: int = 128

@@ -166,9 +166,9 @@ def _weigh(block: Block, harmonics: Whole, moduli: tuple[Complex, Complex]) -> _
 
 
 def _active(block: Block, wavenumber: Real) -> list[int]:
-    """Return for each row of nodes how many of the (ascending) harmonics reach it."""
+    """Return for each row of nodes how many of the (ascending) harmonics reach it; the first is always kept."""
     reach = _FADED / wavenumber
-    return [int(np.count_nonzero(reach >= position)) for position in block.row_positions]
+    return [max(1, int(np.count_nonzero(reach >= position))) for position in block.row_positions]
 
 
 def _eliminate(

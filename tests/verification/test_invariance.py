@@ -120,3 +120,13 @@ def test_sine_slid_the_other_way_has_the_opposite_friction(
     friction = [np.mean(slide(block, paper_rubber, sign * velocity, profile) * slope) / 2.0 for sign in (1.0, -1.0)]
     assert friction[0] > 1e-3
     assert friction[1] == pytest.approx(-friction[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("plane", ["strain", "stress"])
+def test_tall_blocks_are_half_spaces_in_full_and_in_partial_contact(paper_scene: SceneMaker, plane: str) -> None:
+    for velocity in (1.0, 1000.0):
+        tall, taller = (
+            evaluate(solve(paper_scene(velocity, 5.0, plane=plane, aspect=aspect))).stress_power
+            for aspect in (3.0, 20.0)
+        )
+        assert taller == pytest.approx(tall, rel=1e-3)
