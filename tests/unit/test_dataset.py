@@ -231,6 +231,19 @@ def test_large_compression_is_noted(full: xr.Dataset) -> None:
     )
 
 
+@pytest.mark.parametrize(("share", "noted"), [(0.29, False), (0.31, True)])
+def test_compression_is_noted_from_thirty_percent(share: float, noted: bool) -> None:
+    scene = replace(PARTIAL, pressure=share * RUBBER.confined_modulus("stress"))
+    assert ("small strain is only indicative" in simulate(scene).attrs["warnings"]) == noted
+
+
+@pytest.mark.parametrize(("frequency", "noted"), [(4.2e5, False), (5e5, True)])
+def test_poissons_ratio_is_noted_where_it_is_negative(paper_rubber: Material, frequency: float, noted: bool) -> None:
+    scene = replace(PARTIAL, velocity=frequency / 35.0, material=paper_rubber)
+    assert (float(paper_rubber.effective_poissons_ratio(frequency)) < 0.0) == noted
+    assert ("Poisson" in simulate(scene).attrs["warnings"]) == noted
+
+
 def test_speed_near_that_of_shear_waves_is_noted() -> None:
     heavy = replace(RUBBER, density=1e-4)
     notes = simulate(replace(PARTIAL, material=heavy)).attrs["warnings"].splitlines()
@@ -300,6 +313,17 @@ def test_truncated_file_is_refused(stored: Path, tmp_path: Path, share: float) -
     broken.write_bytes(content[: int(share * len(content))])
     with pytest.raises(BrokenResult, match=r"scene.nc cannot be read: .*; delete it and run again$"):
         dataset.read(broken)
+
+
+def test_file_with_damaged_values_is_refused(partial: xr.Dataset, tmp_path: Path, rng: np.random.Generator) -> None:
+    damaged = tmp_path / "scene.nc"
+    dataset.write(partial.assign(bulky=("number", rng.random(50_000))), damaged)
+    content = bytearray(damaged.read_bytes())
+    middle = len(content) // 2
+    content[middle : middle + 64] = bytes(64)
+    damaged.write_bytes(content)
+    with pytest.raises(BrokenResult, match=r"scene.nc cannot be read: .*; delete it and run again$"):
+        dataset.read(damaged)
 
 
 def test_missing_file_is_refused(tmp_path: Path) -> None:

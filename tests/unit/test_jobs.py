@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -48,10 +50,10 @@ def main(output, act="write", number=0):
 
 @pytest.fixture(scope="module", autouse=True)
 def environment() -> Iterator[None]:
-    """Leave the environment of the other tests as it was."""
+    """Ask for more threads than jobs shall have, and leave the environment of the other tests as it was."""
     with pytest.MonkeyPatch.context() as patch:
         for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-            patch.setenv(name, "1")
+            patch.setenv(name, "3")
         patch.setenv("MPLBACKEND", "Agg")
         yield
 
@@ -187,3 +189,33 @@ def test_failures_among_many_threads_hit_their_own_jobs_only(place: Workplace) -
     assert outcomes == acts
     assert threading.active_count() == 1
     assert signal.getsignal(signal.SIGINT) is not signal.SIG_IGN
+
+
+def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -> None:
+    output, master_script = place.folder / "one.txt", place.folder / "master.py"
+    master_script.write_text(
+        "import sys; from rubfric import jobs\n"
+        "open('runs.txt', 'a').write('run')\n"
+        f"jobs.run({str(place.script)!r}, {str(place.log('one'))!r}, output={str(output)!r})\n"
+        "print('done', flush=True); sys.stdin.read()"
+    )
+    command = [sys.executable, str(master_script)]
+    with subprocess.Popen(command, cwd=place.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as master:
+        assert master.stdout is not None
+        assert master.stdout.readline() == b"done\n"
+        worker = int(output.read_text().split()[1])
+        assert is_running(worker)
+        master.kill()
+    deadline = time.monotonic() + 30.0
+    while is_running(worker) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not is_running(worker)
+    assert (place.folder / "runs.txt").read_text() == "run"
+
+
+def is_running(process: int) -> bool:
+    """Return whether a process runs; one that ended and waits to be counted does not."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False

@@ -38,5 +38,5 @@ def test_shares_add_up_to_one() -> None:
 
 
 def test_shares_of_nothing_or_of_the_unknown_are_unknown() -> None:
-    shares = scale_shares(friction([[0.0, 0.1], [0.0, np.nan]]))
+    shares = scale_shares(friction([[0.0, 0.1, 0.1], [0.0, np.nan, -0.1]]))
     assert np.isnan(shares.values).all()

@@ -1,0 +1,166 @@
+"""The paper's tables: complete, consistent and physical."""
+
+from __future__ import annotations
+
+import io
+import re
+import subprocess
+import sys
+from itertools import product
+
+import numpy as np
+import pandas as pd
+import pytest
+from project_copy import Project
+
+SCALES = (1, 2, 3, 4)
+VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)
+PRESSURES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+ASPECTS = (0.25, 0.5, 0.75, 1.0, 1.5)
+# The friction coefficient, to hold to three digits, by scale, speed (mm/s), pressure (MPa) and aspect; plane stress.
+KNOWN = {
+    (1, 0.1, 5.0, 0.75): 0.001106,
+    (1, 100.0, 0.5, 0.75): 0.2097,
+    (1, 100.0, 5.0, 0.75): 0.1288,
+    (1, 500.0, 5.0, 0.75): 0.3138,
+    (1, 10000.0, 0.1, 0.75): 0.007811,
+    (1, 1.0, 0.5, 0.25): 0.05568,
+    (2, 500.0, 5.0, 0.75): 0.2788,
+    (3, 100.0, 5.0, 0.75): 0.3730,
+    (4, 100.0, 5.0, 0.75): 0.3592,
+    (4, 10.0, 2.0, 0.75): 0.2844,
+    (4, 10000.0, 0.1, 0.75): 0.002165,
+}
+
+
+def read(paper: Project, name: str) -> pd.DataFrame:
+    return pd.read_csv(io.StringIO(paper.tables[name]))
+
+
+@pytest.fixture(scope="module")
+def scales(paper: Project) -> dict[int, pd.DataFrame]:
+    return {scale: read(paper, f"friction_scale_{scale}.csv") for scale in SCALES}
+
+
+@pytest.fixture(scope="module")
+def every_scene(scales: dict[int, pd.DataFrame]) -> pd.DataFrame:
+    """All scenes of all scales, one row each."""
+    return pd.concat(scales, names=["scale"]).reset_index(level="scale").reset_index(drop=True)
+
+
+@pytest.fixture(scope="module")
+def total(paper: Project) -> pd.DataFrame:
+    return read(paper, "friction_total.csv")
+
+
+def points(table: pd.DataFrame, *columns: str) -> list[tuple[float, ...]]:
+    return list(table[list(columns)].itertuples(index=False, name=None))
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_every_scale_has_the_whole_grid_once(scales: dict[int, pd.DataFrame], scale: int) -> None:
+    table = scales[scale]
+    grid = table[table["aspect"] == 0.75]
+    assert points(grid, "pressure_MPa", "velocity_mm_per_s") == list(product(PRESSURES, VELOCITIES))
+    assert len(grid) == 42
+    assert len(table) == (98 if scale == 1 else 42)
+
+
+def test_aspect_study_is_complete(scales: dict[int, pd.DataFrame]) -> None:
+    study = scales[1][scales[1]["pressure_MPa"].isin((0.5, 5.0))]
+    expected = list(product(ASPECTS, (0.5, 5.0), VELOCITIES))
+    assert points(study, "aspect", "pressure_MPa", "velocity_mm_per_s") == expected
+
+
+def test_no_number_is_missing(every_scene: pd.DataFrame, total: pd.DataFrame) -> None:
+    assert len(every_scene) == 224
+    assert np.isfinite(every_scene.to_numpy(dtype=float)).all()
+    assert np.isfinite(total.to_numpy(dtype=float)).all()
+
+
+def test_total_is_the_sum_of_the_scales(total: pd.DataFrame, scales: dict[int, pd.DataFrame]) -> None:
+    assert points(total, "pressure_MPa", "velocity_mm_per_s") == list(product(PRESSURES, VELOCITIES))
+    parts = total[[f"friction_scale_{scale}" for scale in SCALES]]
+    np.testing.assert_allclose(parts.sum(axis=1), total["friction_total"], rtol=1e-5)
+    for scale, table in scales.items():
+        grid = table[table["aspect"] == 0.75]
+        assert parts[f"friction_scale_{scale}"].tolist() == grid["friction_coefficient"].tolist()
+
+
+def test_energy_closes_in_every_scene(every_scene: pd.DataFrame) -> None:
+    assert every_scene["energy_closure"].max() <= 0.01
+
+
+def test_friction_from_energy_is_that_from_contact(every_scene: pd.DataFrame) -> None:
+    for route in ("friction_coefficient_dissipation", "friction_coefficient_contact"):
+        np.testing.assert_allclose(every_scene[route], every_scene["friction_coefficient"], rtol=0.01)
+
+
+def test_friction_is_positive_and_below_the_steepest_slope(paper: Project, scales: dict[int, pd.DataFrame]) -> None:
+    for scale, table in scales.items():
+        assert table["friction_coefficient"].min() > 0.0
+        assert table["friction_coefficient"].max() < paper.campaign.road[scale - 1].steepest_slope
+
+
+def test_contact_fraction_is_a_share(every_scene: pd.DataFrame) -> None:
+    assert every_scene["contact_fraction"].min() > 0.0
+    assert every_scene["contact_fraction"].max() == 1.0
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_contact_grows_with_pressure_and_shrinks_with_speed(scales: dict[int, pd.DataFrame], scale: int) -> None:
+    grid = scales[scale][scales[scale]["aspect"] == 0.75]
+    fraction = grid.pivot(index="velocity_mm_per_s", columns="pressure_MPa", values="contact_fraction").to_numpy()
+    node = (1.0 / grid["columns"]).max()
+    assert np.diff(fraction, axis=1).min() >= -node
+    assert np.diff(fraction, axis=0).max() <= node
+    assert fraction[0, -1] > fraction[-1, 0] + 0.1
+
+
+def test_contact_is_resolved_in_every_scene(paper: Project, every_scene: pd.DataFrame) -> None:
+    numerics = paper.campaign.numerics
+    assert every_scene["contact_nodes"].min() >= 0.9 * numerics.contact_nodes
+    assert every_scene["columns"].max() < numerics.columns_max
+
+
+def test_contact_pressure_exceeds_the_nominal_one(every_scene: pd.DataFrame) -> None:
+    ratio = every_scene["maximum_contact_pressure_MPa"] / every_scene["pressure_MPa"]
+    assert ratio.min() > 1.0
+    part = every_scene["contact_fraction"] < 1.0
+    assert (ratio[part] > 1.0 / every_scene["contact_fraction"][part]).all()
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_friction_peaks_between_the_slowest_and_the_fastest(scales: dict[int, pd.DataFrame], scale: int) -> None:
+    table = scales[scale]
+    line = table[(table["aspect"] == 0.75) & (table["pressure_MPa"] == 5.0)]["friction_coefficient"].to_numpy()
+    peak = int(line.argmax())
+    assert 0 < peak < len(line) - 1
+    assert np.all(np.diff(line[: peak + 1]) > 0.0)
+    assert np.all(np.diff(line[peak:]) < 0.0)
+    assert line[peak] > 2.0 * max(line[0], line[-1])
+
+
+def test_finer_scales_peak_no_later(scales: dict[int, pd.DataFrame]) -> None:
+    peaks = []
+    for table in scales.values():
+        line = table[(table["aspect"] == 0.75) & (table["pressure_MPa"] == 5.0)]
+        peaks.append(float(line["velocity_mm_per_s"].iloc[int(line["friction_coefficient"].to_numpy().argmax())]))
+    assert peaks == sorted(peaks, reverse=True)
+    assert peaks[-1] < peaks[0]
+
+
+@pytest.mark.parametrize(("point", "friction"), KNOWN.items())
+def test_friction_is_as_known(scales: dict[int, pd.DataFrame], point: tuple[float, ...], friction: float) -> None:
+    scale, *rest = point
+    rows = scales[int(scale)].set_index(["velocity_mm_per_s", "pressure_MPa", "aspect"])
+    assert rows.loc[tuple(rest), "friction_coefficient"] == pytest.approx(friction, rel=2e-3)
+
+
+def test_command_line_gives_the_number_of_the_table(paper: Project, scales: dict[int, pd.DataFrame]) -> None:
+    command = [sys.executable, "-m", "rubfric.cli", "simulate", "--scale", "4", "--velocity", "100", "--pressure", "5"]
+    done = subprocess.run(command, cwd=paper.root, env=paper.environment, capture_output=True, text=True, check=True)
+    printed = re.search(r"^friction coefficient +(\S+)$", done.stdout, re.MULTILINE)
+    rows = scales[4].set_index(["velocity_mm_per_s", "pressure_MPa", "aspect"])
+    assert printed
+    assert float(printed[1]) == pytest.approx(rows.loc[(100.0, 5.0, 0.75), "friction_coefficient"], rel=1e-4)

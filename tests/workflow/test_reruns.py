@@ -1,0 +1,186 @@
+"""What reruns what: exactly the results that a change can touch, by dry runs."""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from typing import Any
+
+import pytest
+from project_copy import Project
+
+TABLES = {"scale_table": 4, "total_table": 1}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4}
+EVERYTHING = {"scene": 18, **CAMPAIGN, "field_figure": 2}
+CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6", "fig7"}
+FIELD_FIGURES = {"fig2", "fig4"}
+DEFAULT = "config/config.yaml"
+
+
+@pytest.mark.parametrize(
+    ("at", "values", "count"),
+    [
+        ("grid.velocities", [1, 10, 100], 9),
+        ("grid.pressures", [0.5, 2, 5], 8),
+        ("aspect_study.aspects", [0.5, 0.75, 1.5], 2),
+    ],
+)
+def test_another_value_runs_its_own_scenes_only(project: Project, at: str, values: list[float], count: int) -> None:
+    before = set(project.campaign.scenes())
+    project.configure(at, values)
+    added = set(project.campaign.scenes()) - before
+    plan = project.plan()
+    assert len(added) == count
+    assert plan.scenes == added
+    assert plan.jobs == {"scene": count, **CAMPAIGN}
+    assert plan.figures == CAMPAIGN_FIGURES
+
+
+def test_value_taken_away_runs_no_scene(project: Project) -> None:
+    project.configure("aspect_study.aspects", [0.75])
+    project.configure("grid.velocities", [100])
+    project.configure("figures.fields.velocities", [100])
+    plan = project.plan()
+    assert plan.jobs == {**CAMPAIGN, "field_figure": 2}
+
+
+def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
+    project.configure("figures.fields.pressures", [5])
+    plan = project.plan()
+    assert plan.jobs == {"field_figure": 2}
+    assert plan.figures == FIELD_FIGURES
+
+
+def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> None:
+    project.configure("figures.total_pressure", 0.5)
+    plan = project.plan()
+    assert plan.jobs == {"campaign_figure": 1}
+    assert plan.figures == {"fig7"}
+
+
+def test_order_and_spelling_of_numbers_run_nothing(project: Project) -> None:
+    project.configure("grid.velocities", [100.0, 1.0])
+    project.configure("grid.pressures", [5, 0.50])
+    project.configure("grid.aspect", 0.7500000000000001)
+    project.configure("aspect_study.aspects", [0.75, 0.5])
+    project.configure("aspect_study.scales", [1.0])
+    project.configure("figures.total_pressure", 5.0)
+    project.configure("figures.fields.velocities", [100.0, 1])
+    project.edit(DEFAULT, lambda text: text.replace("youngs_modulus: 4.17", "youngs_modulus: 4.1700"))
+    project.edit(DEFAULT, lambda text: text.replace("amplitude: 0.015", "amplitude: 1.5e-2"))
+    project.edit(DEFAULT, lambda text: text.replace("contact_nodes: 64", "contact_nodes: 64.0"))
+    assert project.plan().jobs == {}
+
+
+@pytest.mark.parametrize(("figure", "rule"), [("fig1", "campaign_figure"), ("fig4", "field_figure")])
+def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule: str) -> None:
+    project.comment(f"rubfric/figures/{figure}.py")
+    plan = project.plan()
+    assert plan.figures == {figure}
+    assert plan.jobs == {rule: 1}
+
+
+def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> None:
+    project.comment("rubfric/figures/style.py")
+    plan = project.plan()
+    assert plan.jobs == {"campaign_figure": 4, "field_figure": 2}
+    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES
+
+
+@pytest.mark.parametrize("name", ["rubfric/contact.py", "workflow/scripts/simulate_scene.py"])
+def test_edited_mechanics_run_everything(project: Project, name: str) -> None:
+    project.comment(name)
+    assert project.plan().jobs == EVERYTHING
+
+
+def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -> None:
+    project.comment("rubfric/collection.py", "workflow/scripts/collect_campaign.py")
+    assert project.plan().jobs == CAMPAIGN
+
+
+def test_edited_tables_are_written_again_alone(project: Project) -> None:
+    project.comment("rubfric/tables.py")
+    assert project.plan().jobs == TABLES
+
+
+def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
+    project.comment("rubfric/multiscale.py")
+    plan = project.plan()
+    assert plan.jobs == {**TABLES, "campaign_figure": 1}
+    assert plan.figures == {"fig7"}
+
+
+def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
+    project.comment("rubfric/campaign.py", "rubfric/cli.py", "rubfric/summary.py", "rubfric/__init__.py")
+    project.comment("rubfric/jobs.py", "rubfric/warm.py", "rubfric/sources.py")
+    project.comment("README.md", "pyproject.toml", "tests/conftest.py", "workflow/profiles/default/config.yaml")
+    project.comment("Snakefile", "workflow/schemas/config.schema.yaml", DEFAULT, "config/minimal.yaml")
+    for rules in sorted((project.root / "workflow" / "rules").glob("*.smk")):
+        project.edit(str(rules.relative_to(project.root)), lambda text: f"# A remark.\n\n{text}")
+    assert project.plan().jobs == {}
+
+
+def test_touch_alone_reruns_nothing(project: Project) -> None:
+    later = time.time() + 60.0
+    touched = 0
+    for folder in ("rubfric", "workflow", "config"):
+        for path in (project.root / folder).rglob("*"):
+            if path.suffix in (".py", ".smk", ".yaml"):
+                os.utime(path, (later, later))
+                touched += 1
+    os.utime(project.root / "Snakefile", (later, later))
+    assert touched > 40
+    assert project.plan().jobs == {}
+
+
+@pytest.mark.parametrize(
+    ("at", "value"),
+    [
+        ("rubbers.zhou2019.youngs_modulus", 4.2),
+        ("rubbers.zhou2019.bulk", "proportional"),
+        ("numerics.contact_nodes", 32),
+    ],
+)
+def test_other_rubber_or_numerics_run_everything(project: Project, at: str, value: Any) -> None:
+    project.configure(at, value, DEFAULT)
+    assert project.plan().jobs == EVERYTHING
+
+
+def test_other_height_of_one_scale_runs_that_scale_only(project: Project) -> None:
+    project.configure("roads.zhou2019.2.amplitude", 0.004, DEFAULT)
+    plan = project.plan()
+    assert plan.scenes == {name for name in project.campaign.scenes() if name.startswith("scale3_")}
+    assert plan.jobs == {"scene": 4, **CAMPAIGN}
+
+
+def test_spare_rubber_and_road_run_nothing(project: Project) -> None:
+    spare = {"youngs_modulus": 1, "poissons_ratio": 0.3, "shear_fractions": [], "relaxation_times": []}
+    project.configure("rubbers.spare", spare, DEFAULT)
+    project.configure("roads.spare", [{"amplitude": 1, "wavenumber": 1}], DEFAULT)
+    assert project.plan().jobs == {}
+
+
+def test_optional_keys_of_the_rubber_left_out_run_nothing(project: Project) -> None:
+    project.edit(DEFAULT, lambda text: re.sub(r"    (moduli|bulk|density): .*\n", "", text))
+    assert project.plan().jobs == {}
+
+
+def test_other_plane_runs_scenes_of_other_names(project: Project) -> None:
+    project.configure("plane", "strain", DEFAULT)
+    plan = project.plan()
+    assert plan.scenes == {name.replace("stress", "strain") for name in project.scene_files}
+    assert plan.jobs == EVERYTHING
+
+
+def test_deleted_table_is_written_again_alone(project: Project) -> None:
+    (project.results / "tables" / "friction_scale_2.csv").unlink()
+    assert project.plan().jobs == {"scale_table": 1}
+
+
+def test_deleted_scene_is_made_again(project: Project) -> None:
+    name = "scale4_v1_p5_aspect0.75_stress"
+    project.scene_files[name].unlink()
+    plan = project.plan()
+    assert plan.scenes == {name}
+    assert plan.jobs == {"scene": 1, **CAMPAIGN}

@@ -1,0 +1,95 @@
+"""Real runs: a grown campaign, a damaged result, a scene without a solution, another rubber."""
+
+from __future__ import annotations
+
+import io
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from project_copy import Project
+
+from rubfric.simulation import simulate
+
+
+def table(project: Project, name: str) -> pd.DataFrame:
+    return pd.read_csv(io.StringIO(project.tables[name]))
+
+
+def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, project: Project) -> None:
+    written = {name: path.stat().st_mtime_ns for name, path in project.scene_files.items()}
+    project.configure("grid.velocities", [1, 10, 100])
+    project.run()
+    assert len(project.scene_files) == 27
+    assert {name: project.scene_files[name].stat().st_mtime_ns for name in written} == written
+    for name, text in project.tables.items():
+        new, old = table(project, name), table(template, name)
+        kept = new[new["velocity_mm_per_s"] != 10].reset_index(drop=True)
+        pd.testing.assert_frame_equal(kept, old)
+        assert text.splitlines()[0] == template.tables[name].splitlines()[0]
+        assert len(new) - len(old) == (3 if name == "friction_scale_1.csv" else 2)
+    total = table(project, "friction_total.csv").set_index(["velocity_mm_per_s", "pressure_MPa"])
+    expected = [float(simulate(project.campaign.scene(scale, 10, 5)).friction_coefficient) for scale in range(1, 5)]
+    assert total.loc[(10, 5)].to_numpy() == pytest.approx([*expected, sum(expected)], rel=1e-5)
+    assert project.plan().jobs == {}
+
+
+def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, template: Project) -> None:
+    name = "scale3_v1_p5_aspect0.75_stress"
+    damaged = project.scene_files[name]
+    damaged.write_bytes(damaged.read_bytes()[:2000])
+    done = project.snakemake()
+    assert done.returncode == 1
+    sentence = (
+        rf"^BrokenResult: \S*{name}.nc is no readable result: .*; delete it and run again \(log: \S*campaign.log\)$"
+    )
+    assert len(re.findall(sentence, done.stderr, re.MULTILINE)) == 1
+    damaged.unlink()
+    assert project.plan().scenes == {name}
+    project.run()
+    assert project.tables == template.tables
+
+
+def test_scene_without_a_solution_fails_alone(template: Project, project: Project) -> None:
+    fractions = {
+        name: fraction for scale in range(1, 5) for name, fraction in contact_fractions(template, scale).items()
+    }
+    full = {name for name, fraction in fractions.items() if fraction == 1.0}
+    assert 0 < len(full) < len(fractions) == 18
+    project.edit("rubfric/contact.py", lambda text: re.sub(r"(?m)^MOST_STEPS = \d+$", "MOST_STEPS = 1", text))
+    done = project.snakemake("--keep-going")
+    assert done.returncode == 1
+    assert set(project.scene_files) == full
+    for name in set(fractions) - full:
+        sentence = rf"NotConverged: {name}: not converged after 1 steps, number of [a-z ]+ is \d+"
+        assert len(re.findall(rf"^{sentence} \(log: \S*{name}.log\)$", done.stderr, re.MULTILINE)) == 1
+        log = project.results / "logs" / "scenes" / "zhou2019" / "zhou2019" / f"{name}.log"
+        assert re.search(sentence + r"$", log.read_text())
+    assert "Finished jobid" in done.stderr
+    assert not list(project.results.rglob("*.part"))
+
+
+def contact_fractions(project: Project, scale: int) -> dict[str, float]:
+    """Return the contact fraction of each scene of a scale, by name."""
+    rows = table(project, f"friction_scale_{scale}.csv")
+    keys = rows[["velocity_mm_per_s", "pressure_MPa", "aspect"]].itertuples(index=False, name=None)
+    scenes = [project.campaign.scene(scale, *key).name for key in keys]
+    return dict(zip(scenes, rows["contact_fraction"], strict=True))
+
+
+def test_another_rubber_has_its_own_folder_and_the_way_back_is_free(template: Project, project: Project) -> None:
+    soft = {"youngs_modulus": 1.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
+    project.configure("rubbers.soft", soft, "config/config.yaml")
+    project.configure("rubber", "soft", "config/config.yaml")
+    project.run("tables")
+    folder = project.results / "scenes"
+    assert sorted(path.name for path in folder.iterdir()) == ["soft", "zhou2019"]
+    assert set(project.scene_files) == set(template.scene_files)
+    assert project.scene_files["scale1_v1_p5_aspect0.75_stress"].parent == folder / "soft" / "zhou2019"
+    for name in project.tables:
+        assert not np.allclose(table(project, name).iloc[:, -1], table(template, name).iloc[:, -1])
+    project.configure("rubber", "zhou2019", "config/config.yaml")
+    assert project.plan("tables").jobs == {"campaign": 1, "scale_table": 4, "total_table": 1, "tables": 1}
+    project.run("tables")
+    assert project.tables == template.tables
