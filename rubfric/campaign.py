@@ -165,6 +165,8 @@ class Campaign:
 def load(*paths: str | os.PathLike[str]) -> Campaign:
     """Read one or more YAML configs, each laid over the ones before, and check the whole.
 
+    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml.
+
     Raises
     ------
     InvalidInput
@@ -172,6 +174,8 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
+    if not paths:
+        raise InvalidInput("no config was given: name at least one file")
     merged: dict[str, Any] = {}
     for path in paths:
         try:
@@ -203,8 +207,8 @@ def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 
 def _folder(value: Any) -> str:
-    if not isinstance(value, str) or not value.strip():
-        raise InvalidInput(f"results is {value!r}, but must be the path of a folder")
+    if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
+        raise InvalidInput(f"results is {value!r}, but must be the path of a folder, without braces")
     return value.rstrip("/") or "/"
 
 

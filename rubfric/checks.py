@@ -17,6 +17,8 @@ import numpy as np
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
+# Bounds on every quantity that must be positive: their products stay far from overflow and underflow.
+SMALLEST, LARGEST = 1e-30, 1e30
 
 
 def number(key: str, value: Any) -> float:
@@ -39,7 +41,7 @@ def _yaml_hint(text: str) -> str:
         parsed = float(text)
     except ValueError:
         return ""
-    if not math.isfinite(parsed):
+    if not math.isfinite(parsed) or "e" not in text.lower():
         return ""
     mantissa, _, exponent = f"{parsed:e}".partition("e")
     mantissa = mantissa.rstrip("0")
@@ -52,6 +54,8 @@ def positive(key: str, value: Any, unit: str = "") -> float:
     checked = number(key, value)
     if checked <= 0.0:
         raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be greater than 0")
+    if not SMALLEST <= checked <= LARGEST:
+        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must lie between {SMALLEST:g} and {LARGEST:g}")
     return checked
 
 
@@ -60,6 +64,14 @@ def at_least(key: str, value: Any, low: float, unit: str = "") -> float:
     checked = number(key, value)
     if checked < low:
         raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be at least {low:g}")
+    return checked
+
+
+def at_most(key: str, value: Any, high: float, unit: str = "") -> float:
+    """Return a canonical number of at most ``high``."""
+    checked = number(key, value)
+    if checked > high:
+        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be at most {high:g}")
     return checked
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import rubfric
 from rubfric import campaign as campaigns
-from rubfric.errors import RubfricError
+from rubfric.errors import InvalidInput, RubfricError
 from rubfric.material import PLANES
 
 _EXAMPLE = """\
@@ -16,7 +16,7 @@ example:
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --aspect 0.75
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
 
-The rubber, the road and the numerics come from a config, by default config/config.yaml.
+The rubber, the road and the numerics come from config/config.yaml, and what --config lays over it.
 For whole campaigns run snakemake in the project's folder.
 """
 
@@ -30,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     try:
         return int(options.run(options))
-    except (ValueError, FileNotFoundError) as error:
+    except (InvalidInput, FileNotFoundError) as error:
         print(f"rubfric: {error}", file=sys.stderr)
         return 2
     except (RubfricError, OSError) as error:
@@ -66,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         type=Path,
         metavar="FILE",
-        help="YAML config with the rubber and the road; give more to lay one over the other",
+        help="YAML config to lay over config/config.yaml, with another rubber, say; may be given again",
     )
     simulate.add_argument("--output", type=Path, metavar="FILE", help="write fields and scalars to this netCDF file")
     simulate.set_defaults(run=_simulate)
@@ -74,32 +74,36 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _simulate(options: argparse.Namespace) -> int:
-    campaign = campaigns.load(*(options.config or [default_config()]))
+    campaign = campaigns.load(*_configs(options.config or []))
     scene = campaign.scene(options.scale, options.velocity, options.pressure, options.aspect, options.plane)
-    from rubfric.simulation import simulate  # heavy: only once the input is known to be right
-
-    result = simulate(scene)
-    if options.output:
-        from rubfric.dataset import write
-
-        write(result, options.output)
+    if options.output and options.output.is_dir():
+        raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
+    from rubfric.dataset import write  # heavy: only once the input is known to be right
+    from rubfric.simulation import simulate
     from rubfric.summary import summary
 
+    result = simulate(scene)
     print(summary(result))
     if options.output:
+        write(result, options.output)
         print(f"\nWritten to {options.output}")
     return 0
 
 
-def default_config() -> Path:
-    """Return config/config.yaml of the working folder, or that of the project which the package belongs to."""
-    here = Path("config/config.yaml")
-    if here.exists():
-        return here
-    project = Path(__file__).resolve().parents[1] / here
-    if project.exists():
-        return project
-    raise FileNotFoundError("there is no config/config.yaml here: run in the project's folder, or give --config FILE")
+def _configs(given: list[Path]) -> list[Path]:
+    """Return the configs to lay over one another: the project's, where there is one, then those given."""
+    project = default_config()
+    if project is None and not given:
+        raise FileNotFoundError(
+            "there is no config/config.yaml here: run in the project's folder, or give --config FILE"
+        )
+    return [*([project] if project else []), *given]
+
+
+def default_config() -> Path | None:
+    """Return config/config.yaml of the working folder, else that of the project which the package belongs to."""
+    places = (Path(), Path(__file__).resolve().parents[1])
+    return next((path for place in places if (path := place / "config/config.yaml").exists()), None)
 
 
 if __name__ == "__main__":

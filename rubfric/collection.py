@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable
 
@@ -38,7 +39,7 @@ def collect(paths: Iterable[str | os.PathLike[str]]) -> xr.Dataset:
     Raises
     ------
     BrokenResult
-        For a file that cannot be read, two files of one scene, or scenes of different rubbers or planes.
+        For a file that cannot be read, two files of one scene, or scenes that differ in rubber, plane or numerics.
     """
     points: dict[tuple[float, ...], dict[str, float]] = {}
     shared: dict[str, str] = {}
@@ -48,7 +49,10 @@ def collect(paths: Iterable[str | os.PathLike[str]]) -> xr.Dataset:
         if point in points:
             raise BrokenResult(f"{os.fspath(path)} is a second result of its scene; keep one of them")
         if shared and shared != common:
-            raise BrokenResult(f"{os.fspath(path)} belongs to {common}, but the results before it to {shared}")
+            other = next(name for name in common if common[name] != shared[name])
+            raise BrokenResult(
+                f"{os.fspath(path)} has the {other} {common[other]}, but the results before it {shared[other]}"
+            )
         if road.setdefault(point[0], scale) != scale:
             raise BrokenResult(
                 f"{os.fspath(path)} has {scale} on scale {point[0]:g}, but another result {road[point[0]]}"
@@ -69,8 +73,10 @@ def _read_scalars(
             point = tuple(float(stored.getncattr(axis)) for axis in AXES)
             values = {name: float(stored[name][...]) for name in SCALARS}
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
+            parameters = json.loads(stored.getncattr("scene_parameters"))
+            common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
             road = {name: float(stored.getncattr(name)) for name in _ROAD}
-    except (OSError, AttributeError, IndexError, KeyError, RuntimeError) as error:
+    except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
         raise BrokenResult(f"{os.fspath(path)} is no readable result: {error}; delete it and run again") from error
     return point, values, common, road
 

@@ -22,6 +22,8 @@ from rubfric.errors import NotConverged
 MOST_STEPS = 500
 # Block pivots in a row that may fail to reduce the violations before single pivots take over.
 _PATIENCE = 10
+# Nodes in contact that one dense system may have: 300 MB.
+_MOST_NODES = 6000
 # Violations below this share of the height scale, or of the pressure scale, are round-off.
 _ROUND_OFF = 1e-11
 
@@ -98,7 +100,8 @@ def solve_contact(
     Raises
     ------
     NotConverged
-        After ``MOST_STEPS`` steps, with the number of nodes that still violate a condition.
+        After ``MOST_STEPS`` steps, with the number of nodes that still violate a condition; at once where the
+        system is singular, its solution is not finite, or more nodes touch than can be solved at once.
     """
     nodes = len(profile)
     kernel = np.fft.irfft(compliance, nodes)
@@ -106,8 +109,15 @@ def solve_contact(
     touching, best, patience = start.copy(), nodes + 1, _PATIENCE
     for step in range(1, MOST_STEPS + 1):
         inside = np.flatnonzero(touching)
-        pressure, offset = _equilibrium(kernel, profile, nominal, inside)
+        if len(inside) > _MOST_NODES:
+            raise NotConverged(label, step, len(inside), f"number of nodes in contact (at most {_MOST_NODES})")
+        try:
+            pressure, offset = _equilibrium(kernel, profile, nominal, inside)
+        except np.linalg.LinAlgError as error:
+            raise NotConverged(label, step, np.inf, "condition of the contact system") from error
         gap = np.fft.irfft(compliance * np.fft.rfft(pressure), nodes) + offset - profile
+        if not (np.isfinite(pressure).all() and np.isfinite(gap).all()):
+            raise NotConverged(label, step, np.nan, "contact pressure or gap")
         gap[inside] = 0.0
         pulls = touching & (pressure < -_ROUND_OFF * np.abs(pressure).max())
         pierces = ~touching & (gap < -_ROUND_OFF * height_scale)

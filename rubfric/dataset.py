@@ -33,7 +33,7 @@ SCALARS: dict[str, tuple[str, str]] = {
     "friction_coefficient_dissipation": ("1", "friction coefficient from viscous dissipation"),
     "friction_coefficient_contact": ("1", "friction coefficient from contact pressure and road slope"),
     "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
-    "contact_fraction": ("1", "contact area over nominal area"),
+    "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
     "maximum_contact_pressure": ("MPa", "largest contact pressure"),
     "nominal_compression": ("1", "nominal strain of the block under the load, positive in compression"),
     "effective_poissons_ratio": ("1", "real part of the complex Poisson's ratio at the excitation frequency"),
@@ -67,7 +67,7 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
         name: ((), value, _attributes(*SCALARS[name]))
         for name, value in _scalars(solution, energies, wall_time).items()
     }
-    return xr.Dataset(variables, attrs=_provenance(solution))
+    return xr.Dataset(variables, attrs=_provenance(solution, energies))
 
 
 def _attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
@@ -86,9 +86,12 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     def around(field: Real) -> Real:
         return np.concatenate((field, field[:, :1]), axis=1).ravel()
 
+    every = solution.block.columns // columns
     topology = {
         "cf_role": "mesh_topology",
-        "long_name": "rubber block in its reference configuration, one wavelength wide, repeating along x",
+        "long_name": "rubber block in its reference configuration, one wavelength wide, repeating along x"
+        + (f"; every {every}th column of the mesh that was solved" if every > 1 else ""),
+        "units": "1",
         "topology_dimension": 2,
         "node_coordinates": "mesh_node_x mesh_node_y",
         "face_node_connectivity": "mesh_face_nodes",
@@ -98,12 +101,12 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "mesh_node_x": (
             "node",
             np.tile(x, rows),
-            _attributes("mm", "distance along the road", standard_name="projection_x_coordinate"),
+            _attributes("mm", "distance along the road"),
         ),
         "mesh_node_y": (
             "node",
             np.repeat(block.row_positions, columns + 1),
-            _attributes("mm", "height above the bottom of the block", standard_name="projection_y_coordinate"),
+            _attributes("mm", "height above the bottom of the block"),
         ),
         "mesh_face_nodes": (
             ("face", "corner"),
@@ -111,13 +114,14 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
             {
                 "cf_role": "face_node_connectivity",
                 "long_name": "nodes of each cell, counter-clockwise",
-                "start_index": 0,
+                "units": "1",
+                "start_index": np.int32(0),
             },
         ),
         "displacement_x": (
             "node",
             around(energies.displacement[:, 0]),
-            _attributes("mm", "displacement along the road", **place),
+            _attributes("mm", "displacement along the road, without the mean shear that friction causes", **place),
         ),
         "displacement_y": (
             "node",
@@ -133,7 +137,11 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
             around(energies.density),
             _attributes("MPa", "strain-energy density stored in the springs (1 MPa = 1 N mm mm-3)", **place),
         ),
-        "depth": ("depth", block.row_positions, _attributes("mm", "distance from the bottom of the block")),
+        "depth": (
+            "depth",
+            block.row_positions,
+            _attributes("mm", "distance from the bottom of the block", axis="Y", positive="up"),
+        ),
         "strain_energy_density_profile": (
             "depth",
             energies.depth_profile,
@@ -175,7 +183,7 @@ def _scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> 
     }
 
 
-def _provenance(solution: SteadySolution) -> dict[str, Any]:
+def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     scene = solution.scene
     attributes: dict[str, Any] = {
         "title": f"Steady sliding of a rubber block on a sine road: {scene.name}",
@@ -189,7 +197,7 @@ def _provenance(solution: SteadySolution) -> dict[str, Any]:
         "rubber": scene.material.name,
         "plane": scene.plane,
         "software": _SOFTWARE,
-        "warnings": "\n".join(cautions(solution)),
+        "warnings": "\n".join(cautions(solution, energies.closure)),
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
     attributes |= {name: getattr(scene, name) for name in units}
@@ -207,8 +215,11 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.
     encoding = {
-        str(name): {"zlib": True, "complevel": 1} for name, variable in result.variables.items() if variable.size > 1
+        str(name): {"zlib": variable.size > 1, "complevel": 1}
+        | ({} if variable.dtype.kind == "f" and np.isnan(variable.values).any() else {"_FillValue": None})
+        for name, variable in result.variables.items()
     }
     try:
         result.to_netcdf(part, engine="netcdf4", encoding=encoding)

@@ -31,6 +31,7 @@ class SineScale:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", checks.at_least("amplitude of the road", self.amplitude, 0.0, "mm"))
+        checks.at_most("amplitude of the road", self.amplitude, checks.LARGEST, "mm")
         object.__setattr__(self, "wavenumber", checks.positive("wavenumber of the road", self.wavenumber, "1/mm"))
 
     @property

@@ -9,24 +9,28 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from rubfric import checks
+from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.road import SineScale
+
+# Fewest columns in the height of a block: cells much wider than it is high would lock.
+COLUMNS_PER_HEIGHT = 8
 
 
 @dataclass(frozen=True)
 class Numerics:
-    """How finely a scene is solved. The defaults of the workflow stand in its config.
+    """How finely a scene is solved. The defaults are those of the workflow's config.
 
     Parameters
     ----------
     contact_nodes : int
-        Fewest surface nodes inside the contact; the number of columns follows from it.
+        Fewest surface nodes inside the contact, 4 to 4096; the number of columns follows from it.
     columns_min, columns_max : int
         Bounds on the number of columns of cells along one wavelength, multiples of 8.
     row_growth : float
-        Ratio of the heights of neighbouring rows, away from the road, above 1.
+        Ratio of the heights of neighbouring rows, away from the road, 1.00001 to 3.
     first_row : float
-        Height of the row at the road over the width of a column.
+        Height of the row at the road over the width of a column, at least 0.01.
     output_columns : int
         Most columns of cells that the fields of the result file keep, a multiple of 8.
     """
@@ -34,17 +38,20 @@ class Numerics:
     contact_nodes: int = 64
     columns_min: int = 256
     columns_max: int = 32768
-    row_growth: float = 1.15
+    row_growth: float = 1.1
     first_row: float = 1.0
     output_columns: int = 128
 
     def __post_init__(self) -> None:
         at, put = "numerics.", object.__setattr__
         put(self, "contact_nodes", checks.whole(at + "contact_nodes", self.contact_nodes, 4))
+        checks.at_most(at + "contact_nodes", self.contact_nodes, 4096)
         for name in ("columns_min", "columns_max", "output_columns"):
             put(self, name, checks.multiple(at + name, getattr(self, name), 8))
-        put(self, "row_growth", checks.between(at + "row_growth", self.row_growth, 1.0, 3.0))
-        put(self, "first_row", checks.positive(at + "first_row", self.first_row))
+        put(self, "row_growth", checks.at_least(at + "row_growth", self.row_growth, 1.00001))
+        put(self, "first_row", checks.at_least(at + "first_row", self.first_row, 0.01))
+        checks.at_most(at + "row_growth", self.row_growth, 3.0)
+        checks.at_most(at + "columns_max", self.columns_max, 2**20)
         checks.at_least(at + "columns_max", self.columns_max, self.columns_min)
 
 
@@ -88,6 +95,12 @@ class Scene:
         put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
         put(self, "aspect", checks.positive("aspect", self.aspect))
         checks.one_of("plane", self.plane, PLANES)
+        flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
+        if self.aspect < flattest:
+            raise InvalidInput(
+                f"aspect is {self.aspect:g}, but must be at least {flattest:.3g}: so flat a block needs more columns "
+                f"of cells than numerics.columns_max, {self.numerics.columns_max}"
+            )
 
     @property
     def name(self) -> str:

@@ -8,8 +8,12 @@ import xarray as xr
 
 from rubfric import dataset
 from rubfric.energy import evaluate
+from rubfric.errors import NotConverged
 from rubfric.scene import Scene
 from rubfric.steady import solve
+
+# Three routes to one number that differ by more than this are no number.
+_MOST_CLOSURE = 0.25
 
 
 def simulate(scene: Scene) -> xr.Dataset:
@@ -36,4 +40,8 @@ def simulate(scene: Scene) -> xr.Dataset:
     started = time.perf_counter()
     solution = solve(scene)
     energies = evaluate(solution)
+    if not energies.closure <= _MOST_CLOSURE:  # also where it is not a number
+        raise NotConverged(
+            scene.name, solution.iterations, energies.closure, "relative difference of the three friction coefficients"
+        )
     return dataset.build(solution, energies, time.perf_counter() - started)

@@ -12,7 +12,7 @@ from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
 from rubfric.contact import Contact, full_contact, solve_contact
 from rubfric.reference import full_contact_pressure, layer_compliance, westergaard_contact_fraction
-from rubfric.scene import Scene
+from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 from rubfric.smallstrain import HarmonicResponse, respond
 
 # The search for a mesh starts at this many columns and doubles until this many nodes touch.
@@ -86,29 +86,31 @@ def solve(scene: Scene) -> SteadySolution:
         if filled is not None:
             return filled
     columns, touching, iterations = _scout(scene, filling)
-    numerics = scene.numerics
     while True:
-        block = _mesh(scene, columns)
-        response = respond(block, scene.material, scene.velocity, block.harmonics[1:])
-        spectrum = np.concatenate(([0.0], response.compliance))
-        profile = scene.road.height(block.column_positions)
-        contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
-        iterations += contact.iterations
-        touching = contact.touching
-        count = int(np.count_nonzero(touching))
-        resolved = count >= (1.0 - _SHORTFALL) * min(numerics.contact_nodes, columns)
-        finer = _columns(numerics.contact_nodes / count * columns, numerics.columns_min, numerics.columns_max)
-        if resolved or finer <= columns:
-            break
-        columns = finer
+        solution = _solve_partial(scene, columns, touching, iterations)
+        finer = _columns(scene, np.count_nonzero(solution.contact.touching) / columns)
+        if solution.resolved or finer <= columns:
+            return solution
+        columns, touching, iterations = finer, solution.contact.touching, solution.iterations
+
+
+def _solve_partial(scene: Scene, columns: int, touching: Flags, iterations: int) -> SteadySolution:
+    """Return the solution on a mesh of some columns, from a guess of the contact and the steps taken for it."""
+    block = _mesh(scene, columns)
+    response = respond(block, scene.material, scene.velocity, block.harmonics[1:])
+    spectrum = np.concatenate(([0.0], response.compliance))
+    profile = scene.road.height(block.column_positions)
+    contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
     surface = response.compliance * np.fft.rfft(contact.pressure)[1:] / columns
     surface[-1] = 0.5 * surface[-1].real  # the last harmonic is its own conjugate
-    return SteadySolution(scene, block, response, contact, surface, iterations, resolved)
+    wanted = (1.0 - _SHORTFALL) * min(scene.numerics.contact_nodes, columns)
+    resolved = bool(np.count_nonzero(contact.touching) >= wanted)
+    return SteadySolution(scene, block, response, contact, surface, iterations + contact.iterations, resolved)
 
 
 def _solve_full(scene: Scene) -> SteadySolution | None:
     """Return the solution in full contact, which needs the first harmonic only, or None."""
-    block = _mesh(scene, scene.numerics.columns_min)
+    block = _mesh(scene, _columns(scene, 1.0))
     response = respond(block, scene.material, scene.velocity, np.array([1]))
     spectrum = np.zeros(len(block.harmonics), dtype=complex)
     spectrum[1] = response.compliance[0]
@@ -132,7 +134,7 @@ def _scout(scene: Scene, filling: float) -> tuple[int, Flags, int]:
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
     ``filling`` is the pressure, MPa, that fills the road under it.
     """
-    numerics, road = scene.numerics, scene.road
+    road = scene.road
     columns, iterations = _SCOUT_COLUMNS, 0
     guess = _FIRST_GUESS * float(westergaard_contact_fraction(scene.pressure / filling))
     from_crest = np.abs((np.arange(columns) / columns + 0.25) % 1.0 - 0.5)  # in wavelengths
@@ -146,16 +148,17 @@ def _scout(scene: Scene, filling: float) -> tuple[int, Flags, int]:
         iterations += contact.iterations
         touching = contact.touching
         count = int(np.count_nonzero(touching))
-        if count >= _SCOUT_NODES or columns >= numerics.columns_max:
-            needed = numerics.contact_nodes / count * columns
-            return _columns(needed, numerics.columns_min, numerics.columns_max), touching, iterations
-        columns = min(2 * columns, numerics.columns_max)
+        if count >= _SCOUT_NODES or columns >= scene.numerics.columns_max:
+            return _columns(scene, count / columns), touching, iterations
+        columns = min(2 * columns, scene.numerics.columns_max)
 
 
-def _columns(needed: float, fewest: int, most: int) -> int:
-    """Return a number of columns of at least ``needed`` that suits both the mesh and the Fourier transform."""
-    steps = next_fast_len(math.ceil(max(needed, fewest) / _COLUMN_STEP), real=True)
-    return min(_COLUMN_STEP * steps, most)
+def _columns(scene: Scene, fraction: float) -> int:
+    """Return the columns that a scene with some contact fraction needs, fit for the mesh and for its transform."""
+    numerics = scene.numerics
+    needed = max(numerics.columns_min, numerics.contact_nodes / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
+    steps = int(next_fast_len(math.ceil(needed / _COLUMN_STEP), real=True))
+    return min(_COLUMN_STEP * steps, numerics.columns_max)
 
 
 def _carry(touching: Flags, columns: int) -> Flags:

@@ -44,9 +44,11 @@ def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
     for scale in campaign["scale"].values:
         one = friction.sel(scale=scale, drop=True)
         total[f"friction_scale_{scale}"] = one.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
+    pressed = campaign["nominal_compression"].sel(aspect=aspect, drop=True).max("scale")
+    total["nominal_compression"] = pressed.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
     table = total.dropna().reset_index()
     scales = [name for name in table.columns if name.startswith("friction_scale_")]
-    return table[["velocity", "pressure", *scales, "friction_total"]].rename(columns=_AXES)
+    return table[["velocity", "pressure", *scales, "friction_total", "nominal_compression"]].rename(columns=_AXES)
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:

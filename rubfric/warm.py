@@ -5,15 +5,16 @@ Much of the scientific stack loads itself only on first use; what is loaded here
 
 from __future__ import annotations
 
-import contextlib
 import gc
 import io
+import pkgutil
+import sys
 import tempfile
 from importlib import import_module
 from pathlib import Path
 
 import rubfric.collection
-import rubfric.tables  # noqa: F401
+import rubfric.tables
 from rubfric.dataset import write
 from rubfric.material import Material
 from rubfric.road import SineScale
@@ -27,8 +28,8 @@ def _use_everything() -> None:
     scene = Scene(1, SineScale(0.1, 1.0), 1.0, 0.01, 0.5, rubber, "stress", numerics)
     with tempfile.TemporaryDirectory() as folder:
         write(simulate(scene), Path(folder) / "warm.nc")
-    for figure in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7"):
-        import_module(f"rubfric.figures.{figure}")
+    for module in pkgutil.iter_modules(rubfric.figures.__path__, "rubfric.figures."):
+        import_module(module.name)
     from matplotlib.figure import Figure
 
     for kind in ("pdf", "png"):
@@ -37,9 +38,10 @@ def _use_everything() -> None:
         drawn.savefig(io.BytesIO(), format=kind)
 
 
-# Whatever is wrong here is wrong in the jobs too, which can say so.
-with contextlib.suppress(Exception):
+try:
     _use_everything()
+except Exception as error:  # whatever is wrong here is wrong in some job too, which can say so better
+    print(f"The jobs start cold: {error}", file=sys.stderr)
 # What is here stays here: the forks' garbage collection need not touch, and so copy, it.
 gc.collect()
 gc.freeze()

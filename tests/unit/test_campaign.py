@@ -118,8 +118,8 @@ OUT_OF_RANGE = [
     Bad("numerics.columns_max", 1001, "numerics.columns_max is 1001, but must be a multiple of 8"),
     Bad("numerics.output_columns", 0, "numerics.output_columns is 0, but must be a whole number of at least 1"),
     Bad("numerics.columns_max", 128, "numerics.columns_max is 128, but must be at least 256", schema=False),
-    Bad("numerics.row_growth", 1, "numerics.row_growth is 1, but must lie between 1 and 3, both excluded"),
-    Bad("numerics.first_row", 0, "numerics.first_row is 0, but must be greater than 0"),
+    Bad("numerics.row_growth", 1, "numerics.row_growth is 1, but must be at least 1.00001"),
+    Bad("numerics.first_row", 0, "numerics.first_row is 0, but must be at least 0.01"),
 ]
 BAD_MODELS = [
     Bad("plane", "stresses", r"plane is 'stresses', but must be one of stress, strain \(did you mean stress\?\)"),

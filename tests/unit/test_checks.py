@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import numpy as np
 import pytest
 
@@ -26,7 +27,7 @@ def test_number_accepts_numpy_scalars_and_returns_plain_floats(value: np.generic
 
 @pytest.mark.parametrize(
     ("text", "advice"),
-    [("1e-3", "1.0e-3"), ("5E4", "5.0e+4"), ("25e1", "2.5e+2"), ("-3e2", "-3.0e+2"), ("0.1", "1.0e-1")],
+    [("1e-3", "1.0e-3"), ("5E4", "5.0e+4"), ("25e1", "2.5e+2"), ("-3e2", "-3.0e+2"), ("-1e0", "-1.0e+0")],
 )
 def test_text_that_looks_like_a_number_is_refused_with_the_way_to_write_it(text: str, advice: str) -> None:
     sentence = rf"^pressure is the text '{text}', but must be a number \(YAML reads it as text; write "
@@ -58,8 +59,17 @@ def test_positive_refuses_zero_and_less_and_names_the_unit(value: float) -> None
         checks.positive("pressure", value, "MPa")
 
 
-def test_positive_accepts_the_smallest_numbers() -> None:
-    assert checks.positive("pressure", 1e-300) == 1e-300
+def test_positive_numbers_are_bounded() -> None:
+    assert checks.positive("pressure", 1e-30) == 1e-30
+    for value in (1e-31, 1e31):
+        sentence = re.escape(f"pressure is {value:g} MPa, but must lie between 1e-30 and 1e+30")
+        with pytest.raises(InvalidInput, match=sentence):
+            checks.positive("pressure", value, "MPa")
+
+
+def test_quoted_number_is_refused_without_advice() -> None:
+    with pytest.raises(InvalidInput, match=r"^pressure is the text '0.1', but must be a number$"):
+        checks.number("pressure", "0.1")
 
 
 def test_at_least_includes_its_bound() -> None:

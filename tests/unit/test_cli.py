@@ -122,9 +122,23 @@ def test_scene_without_a_result_is_no_bad_input(
 def test_place_that_cannot_be_written_is_no_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").touch()
     assert cli.main([*SCENE, "--output", str(tmp_path / "file" / "scene.nc")]) == 1
-    error = capsys.readouterr().err
+    out, error = capsys.readouterr()
+    assert "friction coefficient" in out  # the answer is not lost
     assert str(tmp_path / "file") in error
     assert error.count("\n") == 1
+
+
+def test_folder_is_no_output(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*SCENE, "--output", str(tmp_path)]) == 2
+    assert capsys.readouterr() == ("", f"rubfric: --output is the folder {tmp_path}, but must be a file\n")
+
+
+def test_overlay_needs_no_more_than_its_changes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlay = tmp_path / "mine.yaml"
+    overlay.write_text("plane: strain\n")
+    scene = [word for word in SCENE if word not in {"--config", str(CONFIG)}]
+    assert cli.main([*scene, "--config", str(overlay)]) == 0
+    assert "plane strain" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["simulate", "--help"]])

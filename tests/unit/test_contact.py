@@ -220,3 +220,20 @@ def test_single_pivots_alone_reach_the_same_contact(
     solved = solve_contact(compliance, profile, 0.5, everywhere(64))
     assert solved.iterations > expected.iterations
     np.testing.assert_allclose(solved.pressure, expected.pressure, atol=1e-9 * expected.pressure.max())
+
+
+def test_what_is_not_finite_is_no_solution() -> None:
+    compliance = np.r_[0.0, np.full(4, np.nan)].astype(complex)
+    with pytest.raises(NotConverged, match="contact pressure or gap is nan"):
+        solve_contact(compliance, np.sin(np.arange(8.0)), 1.0, np.ones(8, dtype=bool))
+
+
+def test_singular_contact_is_no_solution() -> None:
+    with pytest.raises(NotConverged, match="condition of the contact system"):
+        solve_contact(np.zeros(5, dtype=complex), np.sin(np.arange(8.0)), 1.0, np.ones(8, dtype=bool))
+
+
+def test_contact_of_too_many_nodes_is_refused_before_it_fills_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(contact_module, "_MOST_NODES", 7)
+    with pytest.raises(NotConverged, match=r"number of nodes in contact \(at most 7\) is 8"):
+        solve_contact(np.ones(5, dtype=complex), np.sin(np.arange(8.0)), 1.0, np.ones(8, dtype=bool))

@@ -72,7 +72,7 @@ def test_any_netcdf_reader_opens_it(partial: xr.Dataset, stored: Path) -> None:
 def test_every_variable_has_a_unit_and_a_name(result: xr.Dataset) -> None:
     for name, variable in result.variables.items():
         assert variable.attrs["long_name"], name
-        assert ("units" in variable.attrs) == (name not in TOPOLOGY), name
+        assert variable.attrs["units"], name
 
 
 def test_scalars_are_those_declared(result: xr.Dataset) -> None:
@@ -89,8 +89,7 @@ def test_mesh_follows_ugrid(result: xr.Dataset) -> None:
     assert mesh["topology_dimension"] == 2
     assert mesh["face_node_connectivity"] == "mesh_face_nodes"
     x, y = mesh["node_coordinates"].split()
-    assert result[x].attrs["standard_name"] == "projection_x_coordinate"
-    assert result[y].attrs["standard_name"] == "projection_y_coordinate"
+    assert result[x].attrs["units"] == result[y].attrs["units"] == "mm"
     faces = result["mesh_face_nodes"]
     assert faces.attrs["cf_role"] == "face_node_connectivity"
     assert faces.attrs["start_index"] == 0
@@ -203,8 +202,20 @@ def test_nominal_compression_is_load_over_confined_modulus(partial: xr.Dataset, 
     assert float(full["nominal_compression"]) == pytest.approx(5.0 / confined)
 
 
-def test_harmless_scene_has_no_warning(partial: xr.Dataset) -> None:
-    assert partial.attrs["warnings"] == ""
+def test_harmless_scene_has_no_warning() -> None:
+    assert simulate(replace(PARTIAL, pressure=0.05, numerics=Numerics())).attrs["warnings"] == ""
+
+
+def test_routes_that_differ_are_noted() -> None:
+    result = simulate(replace(PARTIAL, numerics=COARSE))
+    closure = float(result["energy_closure"])
+    assert closure > 0.01
+    assert f"The three friction coefficients differ by {closure:.1%}" in result.attrs["warnings"]
+
+
+def test_steep_road_is_noted() -> None:
+    steep = simulate(replace(PARTIAL, road=SineScale(0.04, 35.0)))
+    assert "The road's slope reaches 1.4: small slopes are assumed." in steep.attrs["warnings"]
 
 
 def test_negative_effective_poissons_ratio_is_noted(paper_rubber: Material) -> None:
@@ -231,8 +242,8 @@ def test_large_compression_is_noted(full: xr.Dataset) -> None:
     )
 
 
-@pytest.mark.parametrize(("share", "noted"), [(0.29, False), (0.31, True)])
-def test_compression_is_noted_from_thirty_percent(share: float, noted: bool) -> None:
+@pytest.mark.parametrize(("share", "noted"), [(0.09, False), (0.11, True)])
+def test_compression_is_noted_from_ten_percent(share: float, noted: bool) -> None:
     scene = replace(PARTIAL, pressure=share * RUBBER.confined_modulus("stress"))
     assert ("small strain is only indicative" in simulate(scene).attrs["warnings"]) == noted
 
@@ -246,7 +257,9 @@ def test_poissons_ratio_is_noted_where_it_is_negative(paper_rubber: Material, fr
 
 def test_speed_near_that_of_shear_waves_is_noted() -> None:
     heavy = replace(RUBBER, density=1e-4)
-    notes = simulate(replace(PARTIAL, material=heavy)).attrs["warnings"].splitlines()
+    notes = (
+        simulate(replace(PARTIAL, pressure=0.05, material=heavy, numerics=Numerics())).attrs["warnings"].splitlines()
+    )
     assert len(notes) == 1
     assert notes[0].endswith("of the shear-wave speed: inertia is neglected, but would matter.")
 
@@ -256,9 +269,9 @@ def test_contact_that_the_mesh_cannot_resolve_is_noted() -> None:
     result = simulate(replace(PARTIAL, numerics=tiny))
     touching = int(result["contact_nodes"])
     assert touching < 0.9 * tiny.contact_nodes
-    assert result.attrs["warnings"] == (
+    assert (
         f"Only {touching} surface nodes touch the road, fewer than the 16 asked for: raise numerics.columns_max."
-    )
+    ) in result.attrs["warnings"].splitlines()
 
 
 def test_write_makes_the_folders(partial: xr.Dataset, tmp_path: Path) -> None:

@@ -232,7 +232,16 @@ def test_fields_keep_at_most_the_columns_asked_for(paper_scene: SceneMaker) -> N
 
 @pytest.mark.parametrize(
     ("columns", "most", "stride"),
-    [(256, 128, 2), (256, 256, 1), (256, 4096, 1), (360, 128, 3), (600, 128, 5), (264, 128, 3), (8, 1, 8)],
+    [
+        (256, 128, 2),
+        (256, 256, 1),
+        (256, 4096, 1),
+        (360, 128, 3),
+        (600, 128, 5),
+        (264, 128, 3),
+        (1000, 128, 10),
+        (8, 4, 2),
+    ],
 )
-def test_output_stride_is_the_least_divisor_that_suffices(columns: int, most: int, stride: int) -> None:
+def test_output_stride_is_the_least_that_suffices_and_keeps_the_crest(columns: int, most: int, stride: int) -> None:
     assert output_stride(columns, most) == stride

@@ -3,8 +3,10 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+import yaml
 
 from rubfric.errors import InvalidInput
 from rubfric.material import Material
@@ -129,9 +131,9 @@ def test_bad_scenes_are_refused(paper_scene: SceneMaker, change: dict[str, objec
         ({"columns_max": 8.5}, r"^numerics\.columns_max is 8\.5, but must be a whole number"),
         ({"columns_max": 128}, r"^numerics\.columns_max is 128, but must be at least 256$"),
         ({"output_columns": 0}, r"^numerics\.output_columns is 0, but must be a whole number"),
-        ({"row_growth": 1.0}, r"^numerics\.row_growth is 1, but must lie between 1 and 3, both excluded$"),
-        ({"row_growth": 3.0}, r"^numerics\.row_growth is 3, but must lie between 1 and 3, both excluded$"),
-        ({"first_row": 0.0}, r"^numerics\.first_row is 0, but must be greater than 0$"),
+        ({"row_growth": 1.0}, r"^numerics\.row_growth is 1, but must be at least 1\.00001$"),
+        ({"row_growth": 3.5}, r"^numerics\.row_growth is 3\.5, but must be at most 3$"),
+        ({"first_row": 0.0}, r"^numerics\.first_row is 0, but must be at least 0\.01$"),
         ({"first_row": "1e0"}, r"^numerics\.first_row is the text '1e0'"),
     ],
 )
@@ -150,3 +152,15 @@ def test_parameters_with_missing_or_unknown_keys_are_refused(paper_scene: SceneM
         parameters[part]["colour"] = "black"
     with pytest.raises(InvalidInput, match=part if missing else "colour"):
         Scene.from_parameters(parameters)
+
+
+def test_blocks_too_flat_for_the_mesh_are_refused(paper_scene: SceneMaker) -> None:
+    numerics = Numerics(columns_max=1024)
+    assert paper_scene(1.0, 5.0, aspect=0.01, numerics=numerics).aspect == 0.01
+    with pytest.raises(InvalidInput, match=r"^aspect is 0\.007, but must be at least 0\.00781: so flat a block needs"):
+        paper_scene(1.0, 5.0, aspect=0.007, numerics=numerics)
+
+
+def test_config_and_code_have_the_same_numerics() -> None:
+    config = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text(encoding="utf-8"))
+    assert Numerics(**config["numerics"]) == Numerics()

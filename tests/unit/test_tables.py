@@ -77,6 +77,7 @@ def test_total_table_adds_up_its_scales(campaign: xr.Dataset) -> None:
         "friction_scale_1",
         "friction_scale_2",
         "friction_total",
+        "nominal_compression",
     ]
     places = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
     assert places == list(product(PRESSURES, VELOCITIES))

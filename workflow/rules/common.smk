@@ -1,4 +1,5 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
+import rubfric
 from rubfric import jobs
 from rubfric.sources import sources
 

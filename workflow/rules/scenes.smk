@@ -12,6 +12,7 @@ rule scene:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
+        version=rubfric.__version__,
     message:
         "{wildcards.scene}"
     run:
