@@ -31,6 +31,7 @@ include: "workflow/rules/figures.smk"
 rule all:
     default_target: True
     input:
+        SCENE_FILES,
         TABLES,
         FIGURES,
 

@@ -1,5 +1,6 @@
 # One job per scene. All that a scene depends on stands in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
+SCENE_FILES = [scene_file(name) for name in SCENES]
 
 
 rule scene:
@@ -23,7 +24,7 @@ rule campaign:
     input:
         package_files("rubfric.collection"),
         script="workflow/scripts/collect_campaign.py",
-        scenes=[scene_file(name) for name in SCENES],
+        scenes=SCENE_FILES,
     output:
         f"{RESULTS}/campaign.nc",
     log:
@@ -32,3 +33,8 @@ rule campaign:
         "Collecting all scenes in {output}"
     run:
         jobs.run(input.script, log[0], output=output[0], scenes=list(input.scenes))
+
+
+rule scenes:
+    input:
+        SCENE_FILES,
