@@ -181,7 +181,7 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
         try:
             entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
         except (yaml.YAMLError, UnicodeDecodeError) as error:
-            raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {error}") from error
+            raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
         if not isinstance(entry, Mapping):
             raise InvalidInput(f"{os.fspath(path)} holds {entry!r}, but must hold the keys {', '.join(_KEYS)}")
         merged = _overlay(merged, entry)

@@ -239,7 +239,7 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
     try:
         with xr.open_dataset(path, engine="netcdf4") as stored:
             result = stored.load()
-    except (OSError, ValueError, RuntimeError) as error:
+    except (OSError, ValueError, RuntimeError, AttributeError) as error:
         raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error
     if "scene_digest" not in result.attrs:
         raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")

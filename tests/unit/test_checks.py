@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+
 import numpy as np
 import pytest
 
