@@ -8,6 +8,7 @@ one worker; the next job gets a fresh one.
 from __future__ import annotations
 
 import contextlib
+import io
 import multiprocessing
 import os
 import runpy
@@ -115,6 +116,8 @@ def _nameless_main() -> Iterator[None]:
 def _serve(line: Connection) -> None:
     """Do the jobs that come in, one by one, until the caller hangs up."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)  # a log keeps its order, and what a killed job had to say
     with contextlib.suppress(EOFError):
         while True:
             script, log, arguments = line.recv()
