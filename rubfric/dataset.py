@@ -6,7 +6,6 @@ import json
 import os
 import platform
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ import xarray as xr
 
 import rubfric
 from rubfric.arrays import Real
+from rubfric.atomic import whole
 from rubfric.cautions import cautions, nominal_compression
 from rubfric.energy import Energies
 from rubfric.errors import BrokenResult
@@ -212,20 +212,14 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
     The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
     name begins with a dot.
     """
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
     # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.
     encoding = {
         str(name): {"zlib": variable.size > 1, "complevel": 1}
         | ({} if variable.dtype.kind == "f" and np.isnan(variable.values).any() else {"_FillValue": None})
         for name, variable in result.variables.items()
     }
-    try:
+    with whole(path) as part:
         result.to_netcdf(part, engine="netcdf4", encoding=encoding)
-        os.replace(part, target)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 import pandas as pd
 import xarray as xr
 
+from rubfric.atomic import whole
 from rubfric.multiscale import total_friction
 
 # variable: heading
@@ -53,11 +53,5 @@ def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
     """Write a table as CSV with six significant digits, whole or not at all."""
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
+    with whole(path) as part:
         table.to_csv(part, index=False, float_format="%.6g")
-        os.replace(part, target)
-    finally:
-        part.unlink(missing_ok=True)

@@ -13,6 +13,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from rubfric.atomic import whole
 from rubfric.errors import InvalidInput
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.
@@ -154,11 +155,6 @@ def _lay_out(figure: Figure) -> None:
 
 
 def _save_one(figure: Figure, target: Path) -> None:
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
     ending = target.suffix[1:]
-    try:
+    with whole(target) as part:
         figure.savefig(part, format=ending, metadata=_METADATA[ending])
-        os.replace(part, target)
-    finally:
-        part.unlink(missing_ok=True)

@@ -22,7 +22,6 @@ ROAD = SineScale(0.015, 35.0)
 COARSE = Numerics(contact_nodes=16, columns_min=64, columns_max=1024, row_growth=1.4, output_columns=32)
 PARTIAL = Scene(1, ROAD, 100.0, 0.1, 0.75, RUBBER, "stress", COARSE)
 FULL = replace(PARTIAL, pressure=5.0)
-TOPOLOGY = ("mesh", "mesh_face_nodes")
 NODAL = ("displacement_x", "displacement_y", "strain_energy_density")
 
 
