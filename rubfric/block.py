@@ -105,9 +105,9 @@ class Block:
         deviator = shear - 2.0 / 3.0 * dilatation_product(cells.full)
         return _harmonic(deviator), _harmonic(dilatation_product(cells.mean))
 
-    def quadrature(self) -> Quadrature:
-        """Return the quadrature of one column of cells."""
-        return cell_quadrature(self.column_width, np.diff(self.row_positions))
+    def quadrature(self, centred: bool = False) -> Quadrature:
+        """Return the quadrature of one column of cells, of 2 x 2 points or of two on the centre line."""
+        return cell_quadrature(self.column_width, np.diff(self.row_positions), centred)
 
 
 def graded_rows(height: float, first: float, growth: float) -> Real:

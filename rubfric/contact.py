@@ -4,15 +4,16 @@ Find the pressure p and the rigid offset d of a periodic surface with compliance
 
     gap = C p + d - s >= 0,    p >= 0,    p gap = 0,    mean(p) = nominal pressure.
 
-C is circulant: a convolution along the surface, given by its spectrum. Sliding viscoelastic surfaces have a
-C that is not symmetric, yet positive definite, so that the problem has one solution, and block principal
-pivoting (Judice and Pires 1994, Computers and Operations Research 21, 587) with single pivots as its
+In small strain C is circulant: a convolution along the surface, given by its spectrum. Sliding viscoelastic
+surfaces have a C that is not symmetric, yet positive definite, so that the problem has one solution, and block
+principal pivoting (Judice and Pires 1994, Computers and Operations Research 21, 587) with single pivots as its
 fallback finds it after finitely many steps. Nothing is penalised.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -55,6 +56,42 @@ class Contact:
         return self.pressure > 0.0
 
 
+class Surface(Protocol):
+    """A surface that yields to pressures linearly; both in the frame of the road."""
+
+    def matrix(self, inside: Whole) -> Real:
+        """Return C among the nodes ``inside``, shape (m, m), mm/MPa."""
+        ...
+
+    def deflection(self, pressure: Real) -> Real:
+        """Return C p, shape (n,), mm, from pressures in MPa."""
+        ...
+
+
+class Convolution:
+    """The surface of a block that is the same everywhere along the road.
+
+    Parameters
+    ----------
+    compliance : ndarray of complex, shape (n // 2 + 1,)
+        Spectrum of C, mm/MPa; the real part of its last entry counts where n is even.
+    nodes : int
+        n.
+    """
+
+    def __init__(self, compliance: Complex, nodes: int) -> None:
+        self._compliance = compliance
+        self._kernel = np.fft.irfft(compliance, nodes)
+
+    def matrix(self, inside: Whole) -> Real:
+        """Return C among the nodes ``inside``."""
+        return self._kernel[inside[:, None] - inside[None, :]]
+
+    def deflection(self, pressure: Real) -> Real:
+        """Return C p."""
+        return np.fft.irfft(self._compliance * np.fft.rfft(pressure), len(self._kernel))
+
+
 def full_contact(compliance: Complex, profile: Real, nominal: float) -> Contact | None:
     """Return the contact that fills the whole road, or None where it would need to pull.
 
@@ -86,12 +123,21 @@ def solve_contact(
     start: Flags,
     label: str = "contact",
 ) -> Contact:
+    """Solve the complementarity problem of a circulant C, as ``pivot`` does; arguments as in ``full_contact``."""
+    return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label)
+
+
+def pivot(surface: Surface, profile: Real, nominal: float, start: Flags, label: str = "contact") -> Contact:
     """Solve the complementarity problem from a first guess of the contact.
 
     Parameters
     ----------
-    compliance, profile, nominal
-        As in ``full_contact``; the real part of the last entry of the spectrum counts where n is even.
+    surface : Surface
+        C.
+    profile : ndarray, shape (n,)
+        s, mm.
+    nominal : float
+        Nominal pressure, MPa.
     start : ndarray of bool, shape (n,)
         First guess, not empty; rather too large than too small.
     label : str
@@ -104,7 +150,6 @@ def solve_contact(
         system is singular, its solution is not finite, or more nodes touch than can be solved at once.
     """
     nodes = len(profile)
-    kernel = np.fft.irfft(compliance, nodes)
     height_scale = float(np.ptp(profile)) or 1.0
     touching, best, patience = start.copy(), nodes + 1, _PATIENCE
     for step in range(1, MOST_STEPS + 1):
@@ -112,10 +157,10 @@ def solve_contact(
         if len(inside) > _MOST_NODES:
             raise NotConverged(label, step, len(inside), f"number of nodes in contact (at most {_MOST_NODES})")
         try:
-            pressure, offset = _equilibrium(kernel, profile, nominal, inside)
+            pressure, offset = _equilibrium(surface, profile, nominal, inside)
         except np.linalg.LinAlgError as error:
             raise NotConverged(label, step, np.inf, "condition of the contact system") from error
-        gap = np.fft.irfft(compliance * np.fft.rfft(pressure), nodes) + offset - profile
+        gap = surface.deflection(pressure) + offset - profile
         if not (np.isfinite(pressure).all() and np.isfinite(gap).all()):
             raise NotConverged(label, step, np.nan, "contact pressure or gap")
         gap[inside] = 0.0
@@ -138,12 +183,11 @@ def solve_contact(
     raise NotConverged(label, MOST_STEPS, count, "number of surface nodes that violate contact")
 
 
-def _equilibrium(kernel: Real, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
+def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
     """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
     nodes = len(profile)
-    lag = inside[:, None] - inside[None, :]
     sides = np.column_stack((profile[inside], np.ones(len(inside))))
-    held, unit = np.linalg.solve(kernel[lag], sides).T
+    held, unit = np.linalg.solve(surface.matrix(inside), sides).T
     # Pressures follow the road and the offset; the offset follows from the load.
     offset = (held.sum() - nominal * nodes) / unit.sum()
     pressure = np.zeros(nodes)

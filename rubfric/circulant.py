@@ -1,0 +1,199 @@
+"""The nearest block that is the same everywhere along the road: a direct solver for it.
+
+Averaged along the road, the tangent of a deformed block is block circulant: one banded system in y per harmonic,
+with the complex moduli of its frequency. It is exact for a block pressed on a flat road, and close enough for
+one on a rough road that a handful of Krylov iterations make up the difference.
+
+Harmonics are those of the real Fourier transform, 0 to columns / 2. The block is held at the top (no u_x) and, in
+the mean only, at the road (no u_y): what it rises by follows from the load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+from scipy.linalg import lapack
+
+from rubfric.arrays import Complex, Real, Whole
+from rubfric.finiteblock import Fields, FiniteBlock, Stiffness
+
+# Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
+_BAND = 3
+
+
+@dataclass(frozen=True)
+class Load:
+    """Forces in harmonic space, the thickness eliminated.
+
+    Attributes
+    ----------
+    force : ndarray of complex, shape (2, rows + 1, n)
+        N per mm of thickness.
+    thickness : ndarray of complex, shape (1 or 0, points, rows, n)
+        Logarithm of the thickness stretch that they would cause in a held block.
+    """
+
+    force: Complex
+    thickness: Complex
+
+
+class Circulant:
+    """A factorised block-circulant stiffness.
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    stiffness : Stiffness
+        The tangent to average along the road.
+
+    Attributes
+    ----------
+    compliance : ndarray of complex, shape (2, 2, n)
+        u_x and u_y of the surface over nodal forces there, mm² / N.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        Where the averaged stiffness is singular.
+    """
+
+    def __init__(self, finite: FiniteBlock, stiffness: Stiffness) -> None:
+        self._finite = finite
+        block = finite.block
+        self._harmonics = len(block.harmonics)
+        moduli, volume = _moduli(finite, stiffness)
+        gradient = _gradient(finite)
+        weights = finite.weights
+        if finite.unknowns == 5:
+            give, take = moduli[:4, 4], moduli[4, :4]
+            self._yield = 1.0 / moduli[4, 4]
+            # Forces of a free thickness, and the thickness that displacements cause.
+            self._thickness_force = _contract("iaprn,iprn->aprn", gradient.conj(), give * self._yield * weights)
+            self._thickness = _contract("iprn,iaprn->aprn", take * self._yield, gradient)
+            moduli = moduli[:4, :4] - give[:, None] * (take * self._yield)
+        stressed = _contract("ijprn,japrn->iaprn", moduli, gradient)
+        cells = _contract("iaprn,ibprn->abrn", gradient.conj() * weights, stressed)
+        if volume is not None:
+            dilatation, modulus = volume
+            mean = _contract("ipr,iaprn->arn", dilatation / finite.points, gradient)
+            area = weights.sum(axis=0)
+            cells += mean.conj()[:, None] * (mean * (modulus * area))
+        self._factors, self._pivots = self._factorise(cells)
+        self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
+        self.compliance: Complex = np.stack(
+            [self._unit(component).transpose(2, 1, 0)[:, 0] for component in (0, 1)], axis=1
+        )
+        self.compliance[..., -1] = self.compliance[..., -1].real
+
+    def load(self, forces: Real, thickness_stress: Real) -> Load:
+        """Return the load of nodal forces, N per mm, and of stresses C_zz S_zz at the points, MPa."""
+        force = fft.rfft(forces, axis=-1)
+        thickness = fft.rfft(thickness_stress, axis=-1)
+        if len(thickness):
+            pushed = (self._thickness_force * thickness[0]).sum(axis=1)  # (level and component, row, harmonic)
+            force[:, :-1] -= pushed[:2]
+            force[:, 1:] -= pushed[2:]
+            thickness *= self._yield
+        return Load(force, thickness)
+
+    def surface(self, load: Load) -> Real:
+        """Return u_x and u_y at the surface, mm, shape (2, columns), without the mean of u_y."""
+        force = load.force.transpose(2, 1, 0).reshape(self._harmonics, -1)
+        force = np.where(self._held(), 0.0, force)
+        spectrum = np.einsum("cnj,nj->cn", self._surface.reshape(2, self._harmonics, -1), force)
+        answer: Real = fft.irfft(spectrum, self._finite.block.columns, axis=-1)
+        return answer
+
+    def solve(self, load: Load, contact: Real) -> Fields:
+        """Return the fields under a load and nodal forces at the surface, N per mm, shape (2, columns)."""
+        force = load.force.copy()
+        force[:, 0] += fft.rfft(contact, axis=-1)
+        ordered = np.where(self._held(), 0.0, force.transpose(2, 1, 0).reshape(self._harmonics, -1))
+        spectrum = self._solve(ordered).transpose(2, 1, 0)
+        columns = self._finite.block.columns
+        thickness = load.thickness
+        if len(thickness):
+            corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))
+            thickness = thickness - (self._thickness * corners[:, None]).sum(axis=0)
+        return Fields(fft.irfft(spectrum, columns, axis=-1), fft.irfft(thickness, columns, axis=-1))
+
+    def _solve(self, right: Complex, transposed: bool = False) -> Complex:
+        """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
+        answer, info = lapack.zgbtrs(
+            self._factors, _BAND, _BAND, right.reshape(-1), self._pivots, trans=1 if transposed else 0
+        )
+        assert info == 0
+        return np.asarray(answer).reshape(self._harmonics, -1, 2)
+
+    def _unit(self, component: int, transposed: bool = False) -> Complex:
+        """Return the response to a unit force at the surface, for all harmonics."""
+        right = np.zeros((self._harmonics, 2 * (self._finite.block.rows + 1)), dtype=complex)
+        right[:, component] = 1.0
+        right[self._held()] = 0.0
+        return self._solve(right, transposed)
+
+    def _held(self) -> Real:
+        """Flag the unknowns that are held: u_x at the top, and the mean of u_y at the road."""
+        held = np.zeros((self._harmonics, 2 * (self._finite.block.rows + 1)), dtype=bool)
+        held[:, -2] = True
+        held[0, 1] = True
+        return held
+
+    def _factorise(self, cells: Complex) -> tuple[Complex, Whole]:
+        """Assemble the cells, shape (4, 4, rows, n), to one banded matrix after another, and factorise them."""
+        rows = cells.shape[2]
+        size, middle = 2 * (rows + 1), 2 * _BAND
+        band = np.zeros((3 * _BAND + 1, self._harmonics, size), dtype=complex)
+        for a in range(4):
+            for b in range(4):
+                band[middle + a - b, :, b : b + 2 * rows : 2] += cells[a, b].T
+        for harmonics, held in ((slice(None), size - 2), (slice(0, 1), 1)):
+            for other in range(max(0, held - _BAND), min(size, held + _BAND + 1)):
+                band[middle + held - other, harmonics, other] = 0.0
+                band[middle + other - held, harmonics, held] = 0.0
+            band[middle, harmonics, held] = 1.0
+        factors, pivots, info = lapack.zgbtrf(band.reshape(3 * _BAND + 1, -1), _BAND, _BAND)
+        if info:
+            raise np.linalg.LinAlgError("singular averaged stiffness")
+        return factors, pivots
+
+
+def _contract(subscripts: str, *operands: Complex | Real) -> Complex:
+    return np.asarray(np.einsum(subscripts, *operands))
+
+
+def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> tuple[Complex, tuple[Real, Complex] | None]:
+    """Return the averaged moduli of all harmonics, MPa, (m, m, points, rows, n).
+
+    In plane strain dilatation acts by its mean over cells and comes apart: d ln-volume terms (4, points, rows), and
+    its modulus (rows, n).
+    """
+    points = stiffness.points
+    local, give, take, volume = (
+        part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse, points.volume)
+    )
+    past = _contract("ijpr,jkpr->ikpr", give, take)
+    moduli: Complex = local[..., None] - past[..., None] * finite.shear_kernel
+    curvature = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
+    if finite.unknowns == 5:
+        moduli += (volume[:, None] * volume)[..., None] * curvature
+        return moduli, None
+    return moduli, (volume, curvature[0])
+
+
+def _gradient(finite: FiniteBlock) -> Complex:
+    """Return the displacement gradient of harmonics, 1/mm, shape (4, 4, points, rows, n).
+
+    From u_x and u_y of the lower row of nodes, then of the upper one, to xx, xy, yx, yy.
+    """
+    block = finite.block
+    turn = np.exp(2j * np.pi / block.columns * block.harmonics)
+    nodes = finite.quadrature.gradients.transpose(2, 3, 1, 0)[..., None]  # (node, derivative, point, row, 1)
+    gradient = np.zeros((4, 4, *nodes.shape[2:4], len(turn)), dtype=complex)
+    for level in (0, 1):
+        both = nodes[2 * level] + nodes[2 * level + 1] * turn
+        for component in (0, 1):
+            gradient[2 * component : 2 * component + 2, 2 * level + component] = both
+    return gradient

@@ -1,0 +1,150 @@
+"""Ways to a solution in finite strain: at once, along a growing road, along a growing load; recorded as they are tried.
+
+Newton's method finds most contacts from the block pressed on a flat road. Where it stalls, the road is raised from
+flat to its height in steps that adapt, each starting from the last two, and if that stalls as well the load is
+raised instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+
+from rubfric.arrays import Flags
+from rubfric.errors import NotConverged
+from rubfric.finiteblock import Fields
+from rubfric.newton import Solved, Stalled, newton
+from rubfric.slidingcontact import Road, SlidingContact
+
+# What is solved on the way needs to be near, not exact.
+_ON_THE_WAY = 1e-4
+_FIRST_SHARE = 0.5
+_SMALLEST_SHARE = 1e-4
+# A step on the way that took at most so many Newton steps is followed by a longer one.
+_EASY, _LONGER = 5, 1.6
+# The load from which the way along the load begins, over the load asked for.
+_LIGHT = 0.1
+
+
+@dataclass(frozen=True)
+class Start:
+    """Fields to start from, and a first guess of the contact nodes."""
+
+    fields: Fields
+    touching: Flags
+
+
+class History:
+    """What was tried, in order: one line each."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.steps = 0
+        self.krylov = 0
+
+    def solved(self, what: str, solved: Solved) -> None:
+        """Record a success."""
+        self.steps += solved.steps
+        self.krylov += solved.krylov
+        self.lines.append(f"{what}: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
+
+    def left(self, what: str, stalled: Stalled) -> None:
+        """Record a failure."""
+        self.steps += stalled.steps
+        self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
+
+
+def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, history: History) -> Solved:
+    """Solve the contact from a block pressed on a flat road.
+
+    Parameters
+    ----------
+    flat : Start
+        The solution on a flat road.
+    tolerance : float
+        As for ``newton``.
+
+    Raises
+    ------
+    NotConverged
+        Where every way stalls.
+    """
+    columns = problem.finite.block.columns
+    try:
+        return attempt(problem, flat, road, tolerance, history, f"{columns} columns, at once")
+    except Stalled:
+        pass
+    rise = f"{columns} columns, road at "
+    try:
+        return _follow(problem, flat, lambda share: replace(road, amplitude=share * road.amplitude), tolerance, history, rise)
+    except Stalled:
+        pass
+    light = replace(road, pressure=_LIGHT * road.pressure)
+    try:
+        first = _follow(problem, flat, lambda share: replace(light, amplitude=share * road.amplitude), _ON_THE_WAY, history, rise)
+        return _follow(
+            problem,
+            Start(first.fields, first.correction.contact.touching),
+            lambda share: replace(road, pressure=(_LIGHT + share * (1.0 - _LIGHT)) * road.pressure),
+            tolerance,
+            history,
+            f"{columns} columns, load at ",
+        )
+    except Stalled as stalled:
+        raise NotConverged(problem.label, history.steps, stalled.residual, "distance from balance and contact, over the road's amplitude,") from stalled
+
+
+def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float, history: History, what: str) -> Solved:
+    """Run Newton's method once and record how it went; Stalled where it does."""
+    try:
+        solved = newton(problem, start.fields, road, start.touching, tolerance)
+    except Stalled as stalled:
+        history.left(what, stalled)
+        raise
+    history.solved(what, solved)
+    return solved
+
+
+def _follow(
+    problem: SlidingContact,
+    start: Start,
+    roads: Callable[[float], Road],
+    tolerance: float,
+    history: History,
+    what: str,
+) -> Solved:
+    """Follow roads(share) from share 0, where ``start`` solves it, to 1; Stalled where steps become too short."""
+    share, length = 0.0, _FIRST_SHARE
+    here, before = start, None
+    while True:
+        ahead = min(1.0, share + length)
+        guess = here.fields if before is None else _extrapolate(before, (share, here.fields), ahead)
+        last = ahead == 1.0
+        try:
+            solved = attempt(
+                problem,
+                Start(guess, here.touching),
+                roads(ahead),
+                tolerance if last else _ON_THE_WAY,
+                history,
+                f"{what}{ahead:.4g}",
+            )
+        except Stalled:
+            length = 0.5 * (ahead - share)
+            if length < _SMALLEST_SHARE:
+                raise
+            continue
+        if last:
+            return solved
+        before = (share, here.fields)
+        share, here = ahead, Start(solved.fields, solved.correction.contact.touching)
+        if solved.steps <= _EASY:
+            length *= _LONGER
+
+
+def _extrapolate(before: tuple[float, Fields], here: tuple[float, Fields], ahead: float) -> Fields:
+    """Return the fields on the line through two solutions."""
+    (first, old), (second, new) = before, here
+    back = Fields(new.displacement - old.displacement, new.log_thickness - old.log_thickness)
+    return new.moved(back, (ahead - second) / (second - first))

@@ -1,0 +1,208 @@
+"""The block in finite strain, sliding steadily: forces and stiffness on the mesh, the past by convolution.
+
+In the frame of the road every field is f(xi, Y) with xi = X + v t, and material lines Y = const are straight in
+the reference configuration. The past of a point is therefore the row of points upstream of it, and the branch
+tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency n k v.
+
+Fields on the mesh: displacement (2, rows + 1, columns), mm; logarithm of the stretch across the thickness at the
+quadrature points (1, points, rows, columns), or (0, points, rows, columns) in plane strain.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from rubfric.arrays import Complex, Real
+from rubfric.block import Block
+from rubfric.finitestrain import Deformation, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.material import Material
+
+
+@dataclass(frozen=True)
+class Fields:
+    """What the solver looks for.
+
+    Attributes
+    ----------
+    displacement : ndarray, shape (2, rows + 1, columns)
+        u_x and u_y at the nodes, mm.
+    log_thickness : ndarray, shape (1 or 0, points, rows, columns)
+        Logarithm of the stretch across the thickness at the quadrature points; without entries in plane strain.
+    """
+
+    displacement: Real
+    log_thickness: Real
+
+    def moved(self, step: Fields, share: float = 1.0) -> Fields:
+        """Return these fields plus a share of a step."""
+        return Fields(
+            self.displacement + share * step.displacement, self.log_thickness + share * step.log_thickness
+        )
+
+
+@dataclass(frozen=True)
+class Stressed:
+    """The state of all quadrature points.
+
+    Attributes
+    ----------
+    deformation : Deformation
+        Shapes (..., points, rows, columns).
+    driving : ndarray, shape (4, points, rows, columns)
+        Q, MPa.
+    volumetric : ndarray, shape (points, rows, columns)
+        U', MPa.
+    stress : ndarray, shape (4 or 5, points, rows, columns)
+        First Piola-Kirchhoff stress and, in plane stress, C_zz S_zz, MPa.
+    """
+
+    deformation: Deformation
+    driving: Real
+    volumetric: Real
+    stress: Real
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """The tangent at all quadrature points; ``curvature`` is U'' of the volume that dilatation acts through, MPa."""
+
+    points: Tangent
+    curvature: Real
+
+
+class FiniteBlock:
+    """A meshed block of one rubber at one sliding speed.
+
+    Plane stress integrates dilatation pointwise; plane strain by its mean over each cell, where the pointwise form
+    would lock.
+
+    Parameters
+    ----------
+    block : Block
+    material : Material
+    velocity : float
+        v, mm/s.
+    """
+
+    def __init__(self, block: Block, material: Material, velocity: float) -> None:
+        self.block = block
+        self.material = material
+        self.velocity = velocity
+        self.quadrature = block.quadrature(centred=True)
+        self.points = len(self.quadrature.shapes)
+        self.weights = self.quadrature.weights.T[:, :, None]  # mm², (points, rows, 1)
+        # From the four nodes of a cell to d/dx and d/dy at its points, and back with the weights.
+        gradients = self.quadrature.gradients
+        rows = block.rows
+        self._to_points = np.ascontiguousarray(gradients.swapaxes(2, 3).reshape(rows, 2 * self.points, 4))
+        weighed = gradients * self.quadrature.weights[:, :, None, None]
+        self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
+        self.frequencies = 2.0 * np.pi / block.width * velocity * block.harmonics
+        self.shear_kernel = self._kernel(material.complex_shear_modulus(self.frequencies))
+        self.bulk_kernel = self._kernel(material.complex_bulk_modulus(self.frequencies))
+        self.bulk_relaxes = bool(material.branch_bulk_moduli.any())
+
+    @property
+    def unknowns(self) -> int:
+        """Unknowns at a point: 5 in plane stress, 4 in plane strain."""
+        return 5 if self.block.plane == "stress" else 4
+
+    def _kernel(self, modulus: Complex) -> Complex:
+        """Return what a modulus adds to its long-term value; the last harmonic is its own conjugate."""
+        kernel = modulus - modulus[0].real
+        kernel[-1] = kernel[-1].real
+        return kernel
+
+    def at_rest(self) -> Fields:
+        """Return the fields of the block as it was made."""
+        block = self.block
+        return Fields(
+            np.zeros((2, block.rows + 1, block.columns)),
+            np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
+        )
+
+    def gradient(self, displacement: Real) -> Real:
+        """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, rows, columns)."""
+        rows, columns = self.block.rows, self.block.columns
+        corners = np.empty((rows, 4, 2, columns))
+        for level, part in ((0, displacement[:, :-1]), (2, displacement[:, 1:])):
+            left = part.swapaxes(0, 1)
+            corners[:, level] = left
+            corners[:, level + 1, :, :-1] = left[..., 1:]
+            corners[:, level + 1, :, -1] = left[..., 0]
+        slopes = (self._to_points @ corners.reshape(rows, 4, -1)).reshape(rows, self.points, 2, 2, columns)
+        # From (row, point, derivative, component, column).
+        return np.ascontiguousarray(slopes.transpose(3, 2, 1, 0, 4)).reshape(4, self.points, rows, columns)
+
+    def forces(self, stresses: Real) -> Real:
+        """Return the nodal forces of first Piola-Kirchhoff stresses, N per mm of thickness, (2, rows + 1, columns)."""
+        rows, columns = self.block.rows, self.block.columns
+        ordered = stresses.reshape(2, 2, self.points, rows, columns).transpose(3, 2, 1, 0, 4)
+        corners = (self._to_nodes @ ordered.reshape(rows, 2 * self.points, -1)).reshape(rows, 4, 2, columns)
+        corners = corners.transpose(1, 2, 0, 3)
+        nodal = np.zeros((2, rows + 1, columns))
+        for level, part in ((0, nodal[:, :-1]), (2, nodal[:, 1:])):
+            part += corners[level]
+            part[..., 1:] += corners[level + 1][..., :-1]
+            part[..., 0] += corners[level + 1][..., -1]
+        return nodal
+
+    def stressed(self, fields: Fields) -> Stressed:
+        """Return the state of the points under some fields.
+
+        Raises
+        ------
+        Inverted
+            Where a point is turned inside out.
+        """
+        gradient = self.gradient(fields.displacement)
+        gradient[0] += 1.0
+        gradient[3] += 1.0
+        state = deform(gradient, fields.log_thickness)
+        driving = -self.convolve(self.shear_kernel, state.inverse)
+        driving[[0, 1, 3]] += self.material.long_term_shear_modulus
+        volume = self.dilatation(state.volume)
+        volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, volume)
+        if self.bulk_relaxes:
+            volumetric = volumetric + self.convolve(self.bulk_kernel, volume)
+        return Stressed(state, driving, volumetric, stress(state, driving, volumetric))
+
+    def stiffness(self, state: Stressed) -> Stiffness:
+        """Return the tangent at the points of a state."""
+        volume = self.dilatation(state.deformation.volume)
+        _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, volume)
+        return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
+
+    def stress_change(self, stiffness: Stiffness, step: Fields) -> Real:
+        """Return the change of the stresses under a small step, MPa, shape (4 or 5, points, rows, columns)."""
+        points = stiffness.points
+        change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
+        driving = -self.convolve(self.shear_kernel, _apply(points.inverse, change))
+        volume = self.dilatation((points.volume * change).sum(axis=0))
+        volumetric = stiffness.curvature * volume
+        if self.bulk_relaxes:
+            volumetric = volumetric + self.convolve(self.bulk_kernel, volume)
+        answer = _apply(points.local, change)
+        answer += _apply(points.by_driving, driving)
+        answer += points.volume * volumetric
+        return answer
+
+    def dilatation(self, volume: Real) -> Real:
+        """Return the volume that dilatation acts through: its mean over each cell in plane strain."""
+        return volume if self.block.plane == "stress" else np.broadcast_to(volume.mean(axis=0), volume.shape)
+
+    def convolve(self, kernel: Complex, field: Real) -> Real:
+        """Return the convolution along the road of a field with a kernel given by its harmonics."""
+        spectrum = fft.rfft(field, axis=-1)
+        spectrum *= kernel
+        answer: Real = fft.irfft(spectrum, field.shape[-1], axis=-1, overwrite_x=True)
+        return answer
+
+
+def _apply(matrix: Real, vector: Real) -> Real:
+    """Return the product at every point of (i, j, ...) and (j, ...)."""
+    answer: Real = np.einsum("ij...,j...->i...", matrix, vector)
+    return answer

@@ -1,0 +1,139 @@
+"""Newton's method for a sliding contact in finite strain, at one amplitude of the road and one load.
+
+It seeks the zero of u - T(u), T being one exact linearised contact solve (``rubfric.slidingcontact``). GMRES finds
+each direction with the full tangent, at the contact nodes of T; a step is shortened until u - T(u) falls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from rubfric.arrays import Flags, Real
+from rubfric.circulant import Circulant
+from rubfric.errors import NotConverged
+from rubfric.finiteblock import Fields
+from rubfric.finitestrain import Inverted
+from rubfric.slidingcontact import Correction, Linearised, Road, SlidingContact
+
+_MOST_STEPS = 16
+_MOST_KRYLOV = 60
+_SHORTEST_STEP = 1.0 / 16.0
+# Share of the decrease of a full linear step that a step must bring.
+_DECREASE = 0.1
+# GMRES solves to this share of the residual.
+_FORCING = 0.01
+
+
+class Stalled(RuntimeError):
+    """Newton's method came to an end without a solution: why, after how many steps, and how far off."""
+
+    def __init__(self, reason: str, steps: int, residual: float) -> None:
+        super().__init__(reason, steps, residual)
+        self.reason = reason
+        self.steps = steps
+        self.residual = residual
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A converged contact.
+
+    Attributes
+    ----------
+    fields : Fields
+    correction : Correction
+        What T makes of them.
+    residuals : tuple of float
+        Size of u - T(u) before each Newton step, and at the end.
+    krylov : int
+        Applications of the tangent.
+    """
+
+    fields: Fields
+    correction: Correction
+    residuals: tuple[float, ...]
+    krylov: int
+
+    @property
+    def steps(self) -> int:
+        """Newton steps taken."""
+        return len(self.residuals) - 1
+
+
+def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, tolerance: float) -> Solved:
+    """Solve the contact from some fields and a first guess of the contact nodes.
+
+    Parameters
+    ----------
+    tolerance : float
+        Size of u - T(u), as ``SlidingContact.size`` measures it, at which to stop.
+
+    Raises
+    ------
+    Stalled
+        Where the residual no longer falls, a point is turned inside out, or the linearised contact has no solution.
+    """
+    fields, residuals, krylov = start, [np.inf], 0
+    while True:
+        steps = len(residuals) - 1
+        try:
+            state = problem.finite.stressed(fields)
+            stiffness = problem.finite.stiffness(state)
+            circulant = Circulant(problem.finite, stiffness)
+            correction = problem.correct(circulant, fields, road, touching)
+        except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
+            raise Stalled(str(error), steps, residuals[-1]) from error
+        touching = correction.contact.touching
+        size = problem.size(correction.step)
+        residuals.append(size)
+        if size <= tolerance:
+            return Solved(fields, correction, tuple(residuals[1:]), krylov)
+        if steps >= _MOST_STEPS:
+            raise Stalled("too many steps", steps, size)
+        linear = Linearised(problem, circulant, stiffness, correction, road)
+        direction, count = _direction(problem, linear, correction.step)
+        krylov += count
+        fields, touching = _advance(problem, circulant, fields, direction, road, correction, size, steps)
+
+
+def _direction(problem: SlidingContact, linear: Linearised, right: Fields) -> tuple[Fields, int]:
+    """Return the Newton direction and how often the tangent was applied."""
+    vector = problem.pack(right)
+    applied = 0
+
+    def apply(packed: Real) -> Real:
+        nonlocal applied
+        applied += 1
+        return problem.pack(linear(problem.unpack(packed)))
+
+    operator = LinearOperator((vector.size, vector.size), matvec=apply, dtype=float)
+    solution, _ = gmres(operator, vector, rtol=_FORCING, restart=_MOST_KRYLOV, maxiter=1)
+    return problem.unpack(solution), applied
+
+
+def _advance(
+    problem: SlidingContact,
+    circulant: Circulant,
+    fields: Fields,
+    direction: Fields,
+    road: Road,
+    correction: Correction,
+    size: float,
+    steps: int,
+) -> tuple[Fields, Flags]:
+    """Return the fields after a step along a direction, as long as brings u - T(u) down, and their contact nodes."""
+    share = 1.0
+    while share >= _SHORTEST_STEP:
+        moved = fields.moved(direction, share)
+        try:
+            ahead = problem.correct(circulant, moved, road, correction.contact.touching)
+        except (Inverted, NotConverged, np.linalg.LinAlgError):
+            pass
+        else:
+            if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:
+                return moved, ahead.contact.touching
+        share *= 0.5
+    raise Stalled("no step brings the residual down", steps, size)
