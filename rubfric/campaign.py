@@ -15,31 +15,16 @@ from typing import Any
 import yaml
 
 from rubfric import checks
+from rubfric.choices import AspectStudy, FigureChoice, read_aspect_study, read_figures, scale_number
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.road import SineScale, scales_from_config
-from rubfric.scene import Numerics, Scene
+from rubfric.scene import KINEMATICS, Numerics, Scene
 
-_KEYS = ("results", "rubber", "road", "plane", "grid", "aspect_study", "figures", "numerics", "rubbers", "roads")
-
-
-@dataclass(frozen=True)
-class AspectStudy:
-    """Height-to-width ratios to compare, at some scales and pressures (MPa) and all velocities of the grid."""
-
-    aspects: tuple[float, ...]
-    scales: tuple[int, ...]
-    pressures: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class FigureChoice:
-    """What the figures show: the pressure of the total, and the scenes whose fields are drawn (MPa, mm/s)."""
-
-    total_pressure: float
-    scale: int
-    velocities: tuple[float, ...]
-    pressures: tuple[float, ...]
+_KEYS = (
+    *("results", "rubber", "road", "plane", "kinematics"),
+    *("grid", "aspect_study", "figures", "numerics", "rubbers", "roads"),
+)
 
 
 @dataclass(frozen=True)
@@ -58,6 +43,8 @@ class Campaign:
         Its scales, from coarse to fine.
     plane : {"stress", "strain"}
         Plane stress or plane strain.
+    kinematics : {"small", "finite", "auto"}
+        Small strain, finite strain, or what each scene needs.
     velocities : tuple of float
         mm/s, ascending.
     pressures : tuple of float
@@ -74,6 +61,7 @@ class Campaign:
     road_name: str
     road: tuple[SineScale, ...]
     plane: str
+    kinematics: str
     velocities: tuple[float, ...]
     pressures: tuple[float, ...]
     aspect: float
@@ -98,16 +86,23 @@ class Campaign:
             road_name=config["road"],
             road=road,
             plane=checks.one_of("plane", config["plane"], PLANES),
+            kinematics=checks.one_of("kinematics", config["kinematics"], KINEMATICS),
             velocities=velocities,
             pressures=pressures,
             aspect=checks.positive("grid.aspect", grid["aspect"]),
-            aspect_study=_read_aspect_study(config["aspect_study"], len(road)),
-            figures=_read_figures(config["figures"], len(road), velocities, pressures),
+            aspect_study=read_aspect_study(config["aspect_study"], len(road)),
+            figures=read_figures(config["figures"], len(road), velocities, pressures),
             numerics=_read_numerics(config["numerics"]),
         )
 
     def scene(
-        self, scale: int, velocity: float, pressure: float, aspect: float | None = None, plane: str | None = None
+        self,
+        scale: int,
+        velocity: float,
+        pressure: float,
+        aspect: float | None = None,
+        plane: str | None = None,
+        kinematics: str | None = None,
     ) -> Scene:
         """Return any scene of this rubber on this road, in the grid or not.
 
@@ -123,8 +118,10 @@ class Campaign:
             Height over width; the grid's by default.
         plane : {"stress", "strain"}, optional
             The config's by default.
+        kinematics : {"small", "finite", "auto"}, optional
+            The config's by default.
         """
-        index = _scale("scale", scale, len(self.road))
+        index = scale_number("scale", scale, len(self.road))
         return Scene(
             scale=index,
             road=self.road[index - 1],
@@ -133,6 +130,7 @@ class Campaign:
             aspect=self.aspect if aspect is None else aspect,
             material=self.material,
             plane=self.plane if plane is None else plane,
+            kinematics=self.kinematics if kinematics is None else kinematics,
             numerics=self.numerics,
         )
 
@@ -210,44 +208,6 @@ def _folder(value: Any) -> str:
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
         raise InvalidInput(f"results is {value!r}, but must be the path of a folder, without braces")
     return value.rstrip("/") or "/"
-
-
-def _scale(key: str, value: Any, scales: int) -> int:
-    number = checks.whole(key, value, 1)
-    if number > scales:
-        raise InvalidInput(f"{key} is {number}, but must be one of the road's scales, 1 to {scales}")
-    return number
-
-
-def _read_aspect_study(entry: Any, scales: int) -> AspectStudy:
-    keys = tuple(field.name for field in fields(AspectStudy))
-    checks.known_keys("aspect_study", entry, keys, keys)
-    numbers = checks.grid("aspect_study.scales", entry["scales"])
-    return AspectStudy(
-        aspects=checks.grid("aspect_study.aspects", entry["aspects"]),
-        scales=tuple(_scale("aspect_study.scales", number, scales) for number in numbers),
-        pressures=checks.grid("aspect_study.pressures", entry["pressures"], "MPa"),
-    )
-
-
-def _read_figures(entry: Any, scales: int, velocities: tuple[float, ...], pressures: tuple[float, ...]) -> FigureChoice:
-    checks.known_keys("figures", entry, ("total_pressure", "fields"), ("total_pressure", "fields"))
-    keys = ("scale", "velocities", "pressures")
-    chosen = checks.known_keys("figures.fields", entry["fields"], keys, keys)
-    total = checks.positive("figures.total_pressure", entry["total_pressure"], "MPa")
-    speeds = checks.grid("figures.fields.velocities", chosen["velocities"], "mm/s")
-    loads = checks.grid("figures.fields.pressures", chosen["pressures"], "MPa")
-    _subset("figures.total_pressure", (total,), "grid.pressures", pressures)
-    _subset("figures.fields.pressures", loads, "grid.pressures", pressures)
-    _subset("figures.fields.velocities", speeds, "grid.velocities", velocities)
-    return FigureChoice(total, _scale("figures.fields.scale", chosen["scale"], scales), speeds, loads)
-
-
-def _subset(key: str, values: tuple[float, ...], whole: str, allowed: tuple[float, ...]) -> None:
-    for value in values:
-        if value not in allowed:
-            known = ", ".join(checks.written(number) for number in allowed)
-            raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from {whole}: {known}")
 
 
 def _read_numerics(entry: Any) -> Numerics:

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from rubfric.steady import SteadySolution
+from rubfric.solution import SteadySolution
 
 # Above this share of the shear-wave speed inertia would matter; the model has none.
 _SPEED_LIMIT = 0.3
-# Beyond this nominal compression small strain misjudges the block by more than its material does.
-_COMPRESSION_LIMIT = 0.1
-_SLOPE_LIMIT = 1.0
+# A stretch of the surface along the road of less than this is a fold in the making, which the mesh cannot follow.
+_FOLD_LIMIT = 0.1
 # The aim for the difference between the three friction coefficients.
 _CLOSURE_LIMIT = 0.01
-
-
-def nominal_compression(solution: SteadySolution) -> float:
-    """Return p / M, the strain of the relaxed block under its load between tied sides, dimensionless."""
-    return solution.scene.pressure / solution.scene.material.confined_modulus(solution.scene.plane)
 
 
 def cautions(solution: SteadySolution, closure: float) -> list[str]:
@@ -26,7 +20,6 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
     frequency = scene.road.excitation_frequency(scene.velocity)
     poisson = float(scene.material.effective_poissons_ratio(frequency))
     ratio = float(scene.velocity / scene.material.shear_wave_speed(frequency))
-    compression = nominal_compression(solution)
     found = []
     if poisson < 0.0:
         found.append(
@@ -37,22 +30,31 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
         found.append(
             f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter."
         )
-    if compression >= 1.0:
-        found.append(
-            f"The load presses the block by {compression:.0%} of its height, which small strain cannot mean: "
-            "the number is no prediction."
-        )
-    elif compression > _COMPRESSION_LIMIT:
-        found.append(
-            f"The load presses the block by {compression:.0%} of its height: small strain is only indicative here."
-        )
-    if scene.road.steepest_slope > _SLOPE_LIMIT:
-        found.append(f"The road's slope reaches {scene.road.steepest_slope:.2g}: small slopes are assumed.")
+    if solution.decision.kinematics == "small":
+        found += _small_strain(solution)
+    elif solution.surface_stretch.min() < _FOLD_LIMIT:
+        found.append("The surface is about to fold: finer meshes will differ.")
     if closure > _CLOSURE_LIMIT:
         found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
     if not solution.resolved:
         found.append(
-            f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, "
-            f"fewer than the {scene.numerics.contact_nodes} asked for: raise numerics.columns_max."
+            f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, fewer than asked for: "
+            "raise numerics.columns_max."
         )
     return found
+
+
+def _small_strain(solution: SteadySolution) -> list[str]:
+    """Return what small strain does to a scene that asked for it; nothing where it is accurate enough."""
+    scene, correction = solution.scene, solution.decision.correction
+    if solution.compression >= 1.0:
+        return [
+            f"The load presses the block by {solution.compression:.0%} of its height, which small strain cannot mean: "
+            "the number is no prediction; kinematics: finite gives one."
+        ]
+    if correction > scene.numerics.accuracy:
+        return [
+            f"Finite strain would change friction by about {correction:.1%} (nominal compression "
+            f"{solution.compression:.1%}, slope {scene.road.steepest_slope:.2g}): small strain is only indicative here."
+        ]
+    return []

@@ -10,6 +10,7 @@ import rubfric
 from rubfric import campaign as campaigns
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.material import PLANES
+from rubfric.scene import KINEMATICS
 
 _EXAMPLE = """\
 example:
@@ -62,6 +63,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     simulate.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     simulate.add_argument(
+        "--kinematics",
+        choices=KINEMATICS,
+        help="small or finite strain, or what the scene needs (default: the config's)",
+    )
+    simulate.add_argument(
         "--config",
         action="append",
         type=Path,
@@ -75,7 +81,9 @@ def _parser() -> argparse.ArgumentParser:
 
 def _simulate(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*_configs(options.config or []))
-    scene = campaign.scene(options.scale, options.velocity, options.pressure, options.aspect, options.plane)
+    scene = campaign.scene(
+        options.scale, options.velocity, options.pressure, options.aspect, options.plane, options.kinematics
+    )
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     from rubfric.dataset import write  # heavy: only once the input is known to be right

@@ -11,8 +11,9 @@ import numpy as np
 import xarray as xr
 
 from rubfric import __version__
-from rubfric.dataset import CONVENTIONS, PAPER, SCALARS
+from rubfric.dataset import CONVENTIONS, PAPER
 from rubfric.errors import BrokenResult
+from rubfric.scalars import SCALARS, attributes
 
 AXES: dict[str, tuple[str, str]] = {
     "scale": ("1", "scale of the road, 1 being the coarsest"),
@@ -91,23 +92,19 @@ def _assemble(
         index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), point, strict=True))
         for name, value in values.items():
             arrays[name][index] = value
-    coordinates = {name: (name, axis, _attributes(*AXES[name])) for name, axis in axes.items()}
-    coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), _attributes(*AXES["scale"]))
-    variables = {name: (tuple(AXES), array, _attributes(*SCALARS[name])) for name, array in arrays.items()}
-    for name, described in _ROAD.items():
+    coordinates = {name: (name, axis, attributes(*AXES[name])) for name, axis in axes.items()}
+    coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), attributes(*AXES["scale"]))
+    variables = {name: (tuple(AXES), array, attributes(*SCALARS[name])) for name, array in arrays.items()}
+    for name, about in _ROAD.items():
         variables[name] = (
             ("scale",),
             np.array([road[scale][name] for scale in axes["scale"]]),
-            _attributes(*described),
+            attributes(*about),
         )
-    attributes = {
+    described = {
         "title": "Friction of a rubber block over scale, speed, pressure and height-to-width ratio",
         "Conventions": CONVENTIONS.split()[0],
         "source": f"rubfric {__version__}",
         "references": PAPER,
     }
-    return xr.Dataset(variables, coords=coordinates, attrs=attributes | shared)
-
-
-def _attributes(unit: str, long_name: str) -> dict[str, str]:
-    return {"units": unit, "long_name": long_name}
+    return xr.Dataset(variables, coords=coordinates, attrs=described | shared)

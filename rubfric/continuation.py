@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-
 from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
 from rubfric.finiteblock import Fields
@@ -77,12 +76,16 @@ def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, hi
         pass
     rise = f"{columns} columns, road at "
     try:
-        return _follow(problem, flat, lambda share: replace(road, amplitude=share * road.amplitude), tolerance, history, rise)
+        return _follow(
+            problem, flat, lambda share: replace(road, amplitude=share * road.amplitude), tolerance, history, rise
+        )
     except Stalled:
         pass
     light = replace(road, pressure=_LIGHT * road.pressure)
     try:
-        first = _follow(problem, flat, lambda share: replace(light, amplitude=share * road.amplitude), _ON_THE_WAY, history, rise)
+        first = _follow(
+            problem, flat, lambda share: replace(light, amplitude=share * road.amplitude), _ON_THE_WAY, history, rise
+        )
         return _follow(
             problem,
             Start(first.fields, first.correction.contact.touching),
@@ -92,7 +95,12 @@ def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, hi
             f"{columns} columns, load at ",
         )
     except Stalled as stalled:
-        raise NotConverged(problem.label, history.steps, stalled.residual, "distance from balance and contact, over the road's amplitude,") from stalled
+        raise NotConverged(
+            problem.label,
+            history.steps,
+            stalled.residual,
+            "distance from balance and contact, over the road's amplitude,",
+        ) from stalled
 
 
 def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float, history: History, what: str) -> Solved:

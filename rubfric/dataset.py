@@ -14,10 +14,11 @@ import xarray as xr
 import rubfric
 from rubfric.arrays import Real
 from rubfric.atomic import whole
-from rubfric.cautions import cautions, nominal_compression
-from rubfric.energy import Energies
+from rubfric.cautions import cautions
 from rubfric.errors import BrokenResult
-from rubfric.steady import SteadySolution
+from rubfric.routes import Energies
+from rubfric.scalars import SCALARS, attributes, scalars
+from rubfric.solution import SteadySolution
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
@@ -27,24 +28,6 @@ _SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
     + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
 )
-# name: (unit, long name); the scalars of every result, in the order in which they are shown
-SCALARS: dict[str, tuple[str, str]] = {
-    "friction_coefficient": ("1", "friction coefficient from stress power"),
-    "friction_coefficient_dissipation": ("1", "friction coefficient from viscous dissipation"),
-    "friction_coefficient_contact": ("1", "friction coefficient from contact pressure and road slope"),
-    "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
-    "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
-    "maximum_contact_pressure": ("MPa", "largest contact pressure"),
-    "nominal_compression": ("1", "nominal strain of the block under the load, positive in compression"),
-    "effective_poissons_ratio": ("1", "real part of the complex Poisson's ratio at the excitation frequency"),
-    "shear_wave_speed_ratio": ("1", "sliding speed over shear-wave speed at the excitation frequency"),
-    "excitation_frequency": ("rad s-1", "angular frequency at which the road excites the rubber"),
-    "columns": ("1", "cells along one wavelength of the mesh that was solved"),
-    "rows": ("1", "cells over the height of the mesh that was solved"),
-    "contact_nodes": ("1", "surface nodes in contact"),
-    "iterations": ("1", "pivoting steps of all contact solves"),
-    "wall_time": ("s", "wall time of the solution and its energies"),
-}
 
 
 def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.Dataset:
@@ -59,24 +42,21 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
     -------
     xarray.Dataset
         Mesh ``mesh`` (UGRID) with ``displacement_x``, ``displacement_y`` (mm) and ``strain_energy_density``
-        (MPa) at its nodes; ``contact_pressure`` (MPa), ``gap`` and ``road_height`` (mm) along ``surface_x``;
+        (MPa) at its nodes; ``contact_pressure``, ``local_contact_pressure`` (MPa), ``gap``, ``surface_position``
+        and ``road_height`` (mm) along ``surface_x``;
         ``strain_energy_density_profile`` over ``depth``; the scalars of ``SCALARS``; the scene's parameters.
     """
     variables = _mesh(solution, energies) | _surface(solution)
     variables |= {
-        name: ((), value, _attributes(*SCALARS[name]))
-        for name, value in _scalars(solution, energies, wall_time).items()
+        name: ((), value, attributes(*SCALARS[name])) for name, value in scalars(solution, energies, wall_time).items()
     }
     return xr.Dataset(variables, attrs=_provenance(solution, energies))
-
-
-def _attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
-    return {"units": unit, "long_name": long_name, **more}
 
 
 def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     """Return the mesh of the fields: every few columns of the one solved, and the first again at the far side."""
     block = solution.block
+    shear = "" if solution.decision.kinematics == "finite" else ", without the mean shear that friction causes"
     rows, columns = energies.density.shape
     x = np.linspace(0.0, block.width, columns + 1)
     place = {"mesh": "mesh", "location": "node"}
@@ -101,12 +81,12 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "mesh_node_x": (
             "node",
             np.tile(x, rows),
-            _attributes("mm", "distance along the road"),
+            attributes("mm", "distance along the road"),
         ),
         "mesh_node_y": (
             "node",
             np.repeat(block.row_positions, columns + 1),
-            _attributes("mm", "height above the bottom of the block"),
+            attributes("mm", "height above the bottom of the block"),
         ),
         "mesh_face_nodes": (
             ("face", "corner"),
@@ -121,12 +101,12 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "displacement_x": (
             "node",
             around(energies.displacement[:, 0]),
-            _attributes("mm", "displacement along the road, without the mean shear that friction causes", **place),
+            attributes("mm", "displacement along the road" + shear, **place),
         ),
         "displacement_y": (
             "node",
             around(energies.displacement[:, 1]),
-            _attributes(
+            attributes(
                 "mm",
                 "displacement away from the road; y + displacement_y is the height above the road's mean plane",
                 **place,
@@ -135,17 +115,17 @@ def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "strain_energy_density": (
             "node",
             around(energies.density),
-            _attributes("MPa", "strain-energy density stored in the springs (1 MPa = 1 N mm mm-3)", **place),
+            attributes("MPa", "strain-energy density stored in the springs (1 MPa = 1 N mm mm-3)", **place),
         ),
         "depth": (
             "depth",
             block.row_positions,
-            _attributes("mm", "distance from the bottom of the block", axis="Y", positive="up"),
+            attributes("mm", "distance from the bottom of the block", axis="Y", positive="up"),
         ),
         "strain_energy_density_profile": (
             "depth",
             energies.depth_profile,
-            _attributes("MPa", "strain-energy density stored in the springs, mean over a wavelength"),
+            attributes("MPa", "strain-energy density stored in the springs, mean over a wavelength"),
         ),
     }
 
@@ -154,32 +134,24 @@ def _surface(solution: SteadySolution) -> dict[str, Any]:
     block, road, contact = solution.block, solution.scene.road, solution.contact
     x = block.column_positions
     return {
-        "surface_x": ("surface_x", x, _attributes("mm", "distance along the road")),
-        "road_height": ("surface_x", road.height(x), _attributes("mm", "height of the road above its mean plane")),
-        "contact_pressure": ("surface_x", contact.pressure, _attributes("MPa", "pressure of the road on the rubber")),
-        "gap": ("surface_x", contact.gap, _attributes("mm", "height of the rubber above the road")),
-    }
-
-
-def _scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> dict[str, float | int]:
-    scene, contact = solution.scene, solution.contact
-    frequency = scene.road.excitation_frequency(scene.velocity)
-    return {
-        "friction_coefficient": energies.stress_power,
-        "friction_coefficient_dissipation": energies.dissipation,
-        "friction_coefficient_contact": energies.contact,
-        "energy_closure": energies.closure,
-        "contact_fraction": solution.contact_fraction,
-        "maximum_contact_pressure": float(contact.pressure.max()),
-        "nominal_compression": nominal_compression(solution),
-        "effective_poissons_ratio": float(scene.material.effective_poissons_ratio(frequency)),
-        "shear_wave_speed_ratio": float(scene.velocity / scene.material.shear_wave_speed(frequency)),
-        "excitation_frequency": frequency,
-        "columns": solution.block.columns,
-        "rows": solution.block.rows,
-        "contact_nodes": int(np.count_nonzero(contact.touching)),
-        "iterations": solution.iterations,
-        "wall_time": wall_time,
+        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, of the block as it was made")),
+        "surface_position": (
+            "surface_x",
+            solution.surface_position,
+            attributes("mm", "distance along the road to which the surface has moved, where the gap is measured"),
+        ),
+        "road_height": ("surface_x", road.height(x), attributes("mm", "height of the road above its mean plane")),
+        "contact_pressure": (
+            "surface_x",
+            contact.pressure,
+            attributes("MPa", "vertical pressure of the road per area of the rubber as it was made"),
+        ),
+        "local_contact_pressure": (
+            "surface_x",
+            contact.pressure / solution.surface_stretch,
+            attributes("MPa", "normal pressure of the road per area of the deformed rubber"),
+        ),
+        "gap": ("surface_x", contact.gap, attributes("mm", "height of the rubber above the road")),
     }
 
 
@@ -190,7 +162,10 @@ def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "Conventions": CONVENTIONS,
         "source": f"rubfric {rubfric.__version__}",
         "references": PAPER,
-        "kinematics": "small strain",
+        "kinematics": scene.kinematics,
+        "kinematics_used": solution.decision.kinematics,
+        "kinematics_reason": solution.decision.reason,
+        "solver_history": "\n".join(solution.history),
         "scene": scene.name,
         "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
         "scene_digest": scene.digest,

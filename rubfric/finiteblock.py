@@ -38,9 +38,7 @@ class Fields:
 
     def moved(self, step: Fields, share: float = 1.0) -> Fields:
         """Return these fields plus a share of a step."""
-        return Fields(
-            self.displacement + share * step.displacement, self.log_thickness + share * step.log_thickness
-        )
+        return Fields(self.displacement + share * step.displacement, self.log_thickness + share * step.log_thickness)
 
 
 @dataclass(frozen=True)

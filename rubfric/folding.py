@@ -12,9 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rubfric.arrays import Real
+from rubfric.arrays import Real, Whole
 from rubfric.material import Material
+from rubfric.scene import Scene
 
+# Share of the accuracy asked for that folding may use up.
+_SHARE = 0.01
 # Relaxation time, s, of the branch that never relaxes.
 _NEVER = 1e30
 
@@ -69,6 +72,12 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
     if not relaxed and len(frozen) < 2:  # one frozen branch gathered is the branch that it was
         return Folding(material, (), (), 0.0)
     return Folding(_reduced(material, relaxed, frozen), relaxed, frozen, float(bound.max()))
+
+
+def fold_scene(scene: Scene, harmonics: Whole) -> Folding:
+    """Fold the branches that the harmonics of a scene do not need, within its accuracy."""
+    frequencies = harmonics * scene.road.excitation_frequency(scene.velocity)
+    return fold(scene.material, frequencies, _SHARE * scene.numerics.accuracy)
 
 
 def _reduced(material: Material, relaxed: tuple[int, ...], frozen: tuple[int, ...]) -> Material:

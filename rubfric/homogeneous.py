@@ -36,9 +36,7 @@ def pressed(material: Material, pressure: float, plane: str) -> tuple[float, flo
 
 def _thickness(material: Material, log_stretch: float) -> float:
     """Return the logarithm of the stretch across the thickness where no stress acts there."""
-    return float(
-        brentq(lambda z: _stresses(material, log_stretch, z)[1], -_RANGE, _RANGE, xtol=1e-15, rtol=1e-14)
-    )
+    return float(brentq(lambda z: _stresses(material, log_stretch, z)[1], -_RANGE, _RANGE, xtol=1e-15, rtol=1e-14))
 
 
 def _stresses(material: Material, log_stretch: float, log_thickness: float) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.road import SineScale
 
+KINEMATICS = ("small", "finite", "auto")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
 
@@ -23,10 +24,14 @@ class Numerics:
 
     Parameters
     ----------
-    contact_nodes : int
-        Fewest surface nodes inside the contact, 4 to 4096; the number of columns follows from it.
-    columns_min, columns_max : int
-        Bounds on the number of columns of cells along one wavelength, multiples of 8.
+    accuracy : float
+        Relative accuracy of friction asked for, 1e-6 to 0.5: it decides between small and finite strain, and which
+        Prony branches a scene needs. The mesh follows from the numbers below.
+    contact_nodes, finite_contact_nodes : int
+        Fewest surface nodes inside the contact, 4 to 4096; the number of columns follows from it. In finite strain
+        the latter.
+    columns_min, finite_columns_min, columns_max : int
+        Bounds on the number of columns of cells along one wavelength, multiples of 8. In finite strain the second.
     row_growth : float
         Ratio of the heights of neighbouring rows, away from the road, 1.00001 to 3.
     first_row : float
@@ -35,8 +40,11 @@ class Numerics:
         Most columns of cells that the fields of the result file keep, a multiple of 8.
     """
 
+    accuracy: float = 0.01
     contact_nodes: int = 64
+    finite_contact_nodes: int = 24
     columns_min: int = 256
+    finite_columns_min: int = 128
     columns_max: int = 32768
     row_growth: float = 1.1
     first_row: float = 1.0
@@ -44,15 +52,18 @@ class Numerics:
 
     def __post_init__(self) -> None:
         at, put = "numerics.", object.__setattr__
-        put(self, "contact_nodes", checks.whole(at + "contact_nodes", self.contact_nodes, 4))
-        checks.at_most(at + "contact_nodes", self.contact_nodes, 4096)
-        for name in ("columns_min", "columns_max", "output_columns"):
+        put(self, "accuracy", checks.at_least(at + "accuracy", self.accuracy, 1e-6))
+        checks.at_most(at + "accuracy", self.accuracy, 0.5)
+        for name in ("contact_nodes", "finite_contact_nodes"):
+            put(self, name, checks.whole(at + name, getattr(self, name), 4))
+            checks.at_most(at + name, getattr(self, name), 4096)
+        for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
             put(self, name, checks.multiple(at + name, getattr(self, name), 8))
         put(self, "row_growth", checks.at_least(at + "row_growth", self.row_growth, 1.00001))
         put(self, "first_row", checks.at_least(at + "first_row", self.first_row, 0.01))
         checks.at_most(at + "row_growth", self.row_growth, 3.0)
         checks.at_most(at + "columns_max", self.columns_max, 2**20)
-        checks.at_least(at + "columns_max", self.columns_max, self.columns_min)
+        checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 
 
 @dataclass(frozen=True)
@@ -76,7 +87,9 @@ class Scene:
     plane : {"stress", "strain"}
         Plane stress (the paper's CPS4R) or plane strain.
     numerics : Numerics
-        Resolution.
+        Accuracy and resolution.
+    kinematics : {"small", "finite", "auto"}
+        Small strain, finite strain, or small strain only where that is accurate enough.
     """
 
     scale: int
@@ -87,6 +100,7 @@ class Scene:
     material: Material
     plane: str = "stress"
     numerics: Numerics = field(default_factory=Numerics)
+    kinematics: str = "auto"
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -95,6 +109,7 @@ class Scene:
         put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
         put(self, "aspect", checks.positive("aspect", self.aspect))
         checks.one_of("plane", self.plane, PLANES)
+        checks.one_of("kinematics", self.kinematics, KINEMATICS)
         flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
         if self.aspect < flattest:
             raise InvalidInput(

@@ -15,14 +15,14 @@ def summary(result: xr.Dataset) -> str:
         f"{attributes['rubber']} on scale {attributes['scale']}: "
         f"{attributes['amplitude']:g} mm sin({attributes['wavenumber']:g}/mm x), "
         f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa, "
-        f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics']}",
+        f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
         _line("friction coefficient", f"{friction:.5g}"),
         _line("  from viscous dissipation", f"{float(result['friction_coefficient_dissipation']):.5g}"),
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
         _line("  largest difference", f"{float(result['energy_closure']):.2g} (relative)"),
         _line("contact fraction", f"{float(result['contact_fraction']):.4g}"),
-        _line("largest contact pressure", f"{float(result['maximum_contact_pressure']):.4g} MPa"),
+        _line("largest contact pressure", f"{float(result['maximum_local_contact_pressure']):.4g} MPa"),
         _line("nominal compression", f"{float(result['nominal_compression']):.3g}"),
         _line("effective Poisson's ratio", f"{float(result['effective_poissons_ratio']):.4f}"),
         _line("speed over shear-wave speed", f"{float(result['shear_wave_speed_ratio']):.2g}"),
@@ -30,12 +30,21 @@ def summary(result: xr.Dataset) -> str:
             "mesh",
             f"{int(result['columns'])} x {int(result['rows'])} cells, {int(result['contact_nodes'])} nodes in contact",
         ),
-        _line("solved in", f"{1e3 * float(result['wall_time']):.0f} ms, {int(result['iterations'])} contact steps"),
+        _line("solved in", f"{1e3 * float(result['wall_time']):.0f} ms, {_effort(result)}"),
+        _line("kinematics", attributes["kinematics_reason"]),
     ]
     warnings = [line for line in attributes["warnings"].splitlines() if line]
     if warnings:
         lines += ["", *(f"Note: {line}" for line in warnings)]
     return "\n".join(lines)
+
+
+def _effort(result: xr.Dataset) -> str:
+    """Return what the solver did, in words."""
+    steps = int(result["iterations"])
+    if not int(result["finite_strain"]):
+        return f"{steps} contact steps"
+    return f"{steps} Newton steps, {int(result['krylov_iterations'])} Krylov iterations"
 
 
 def _line(label: str, value: str) -> str:

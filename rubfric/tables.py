@@ -18,14 +18,17 @@ _COLUMNS = {
     "energy_closure": "energy_closure",
     "contact_fraction": "contact_fraction",
     "maximum_contact_pressure": "maximum_contact_pressure_MPa",
+    "maximum_local_contact_pressure": "maximum_local_contact_pressure_MPa",
     "nominal_compression": "nominal_compression",
+    "finite_strain": "finite_strain",
+    "finite_strain_correction": "finite_strain_correction",
     "effective_poissons_ratio": "effective_poissons_ratio",
     "shear_wave_speed_ratio": "shear_wave_speed_ratio",
     "columns": "columns",
     "rows": "rows",
     "contact_nodes": "contact_nodes",
 }
-_WHOLE = ("columns", "rows", "contact_nodes")
+_WHOLE = ("finite_strain", "columns", "rows", "contact_nodes")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 

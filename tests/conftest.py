@@ -65,6 +65,7 @@ def paper_scene(paper_rubber: Material, paper_road: tuple[SineScale, ...]) -> Sc
             "aspect": 0.75,
             "material": paper_rubber,
             "plane": "strain",
+            "kinematics": "small",
             "numerics": Numerics(),
         }
         return Scene(scale=scale, velocity=velocity, pressure=pressure, **{**given, **changes})

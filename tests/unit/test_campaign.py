@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import pytest
 import yaml
 
-from rubfric.campaign import AspectStudy, Campaign, load
+from rubfric.campaign import Campaign, load
+from rubfric.choices import AspectStudy
 from rubfric.errors import InvalidInput
 from rubfric.scene import Numerics
 

@@ -11,10 +11,11 @@ import pytest
 import xarray as xr
 
 from rubfric.collection import AXES, collect
-from rubfric.dataset import SCALARS, write
+from rubfric.dataset import write
 from rubfric.errors import BrokenResult
 from rubfric.material import Material
 from rubfric.road import SineScale
+from rubfric.scalars import SCALARS
 from rubfric.scene import Numerics, Scene
 from rubfric.simulation import simulate
 

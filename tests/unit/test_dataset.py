@@ -14,6 +14,7 @@ from rubfric import dataset
 from rubfric.errors import BrokenResult
 from rubfric.material import Material
 from rubfric.road import SineScale
+from rubfric.scalars import SCALARS
 from rubfric.scene import Numerics, Scene
 from rubfric.simulation import simulate
 
@@ -76,8 +77,8 @@ def test_every_variable_has_a_unit_and_a_name(result: xr.Dataset) -> None:
 
 def test_scalars_are_those_declared(result: xr.Dataset) -> None:
     scalars = [name for name, variable in result.data_vars.items() if variable.ndim == 0 and name != "mesh"]
-    assert scalars == list(dataset.SCALARS)
-    for name, (unit, long_name) in dataset.SCALARS.items():
+    assert scalars == list(SCALARS)
+    for name, (unit, long_name) in SCALARS.items():
         assert result[name].attrs == {"units": unit, "long_name": long_name}
         assert np.isfinite(float(result[name])), name
 

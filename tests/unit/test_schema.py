@@ -14,7 +14,8 @@ import pytest
 import yaml
 from test_campaign import BAD_CONFIGS, DEFAULT, MINIMAL, MISSING, ROOT, Bad, Config, case_name, changed
 
-from rubfric.campaign import AspectStudy, Campaign
+from rubfric.campaign import Campaign
+from rubfric.choices import AspectStudy
 from rubfric.errors import InvalidInput
 from rubfric.material import BULK, MODULI, PLANES, Material
 from rubfric.scene import Numerics

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import xarray as xr
 
-from rubfric.dataset import SCALARS
+from rubfric.scalars import SCALARS
 from rubfric.summary import summary
 
 VALUES: dict[str, Any] = {

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from rubfric.dataset import SCALARS
+from rubfric.scalars import SCALARS
 from rubfric.tables import scale_table, total_table, write_table
 
 SCALES, VELOCITIES, PRESSURES, ASPECTS = (1, 2), (0.1, 100.0, 10000.0), (0.5, 5.0), (0.5, 0.75)

@@ -11,7 +11,8 @@ import time
 import pytest
 from project_copy import Project
 
-from rubfric.dataset import SCALARS, read
+from rubfric.dataset import read
+from rubfric.scalars import SCALARS
 
 PATIENCE = 120.0  # s
 

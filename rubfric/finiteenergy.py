@@ -1,0 +1,136 @@
+"""Friction from energy in finite strain: three routes to one number, and the strain energy stored in the block.
+
+1. Stress power (Zhou, Wang and Wei 2019, eq. 4): F v = mean over a cycle of the integral of S : dE/dt.
+2. Viscous dissipation of the branches, never negative:
+   D = sum_i G_i / (2 tau_i) (A_i : Cb + A_i^-1 : Cb^-1 - 6) (Linder, Tkachuk and Miehe 2011).
+3. Contact: F = sum over the surface nodes of vertical force x slope of the road where they are.
+
+The friction coefficient is F / (p lambda). The three share no more than the deformation: the second knows no stress,
+and the third no interior.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rubfric.arrays import Complex, Real
+from rubfric.finiteblock import FiniteBlock
+from rubfric.finitesteady import FiniteSolution
+from rubfric.finitestrain import XX, XY, YY, ZZ, Deformation, volumetric_energy
+from rubfric.routes import Energies, output_stride, rows_to_nodes
+
+
+def evaluate_finite(solution: FiniteSolution) -> Energies:
+    """Return the friction coefficient by three routes and the stored strain energy of a solved scene."""
+    scene, block, finite = solution.scene, solution.block, solution.finite
+    state, correction = solution.correction.state, solution.correction
+    lost, stored = dissipated_and_stored(finite, state.deformation)
+    power = stress_power(finite, solution.fields.log_thickness, state.stress, state.deformation)
+    force = scene.pressure * block.width
+    stride = output_stride(block.columns, scene.numerics.output_columns)
+    cells = (stored * finite.weights).sum(axis=(0, 2)) / (finite.weights.sum(axis=(0, 2)) * block.columns)
+    return Energies(
+        stress_power=float((power * finite.weights).sum() / (scene.velocity * force)),
+        dissipation=float((lost * finite.weights).sum() / (scene.velocity * force)),
+        contact=float(np.mean(correction.contact.pressure * correction.slope) / scene.pressure),
+        depth_profile=rows_to_nodes(np.diff(block.row_positions), cells),
+        density=nodal_density(finite, stored)[:, ::stride],
+        displacement=np.ascontiguousarray(solution.fields.displacement.swapaxes(0, 1)[..., ::stride]),
+    )
+
+
+def stress_power(finite: FiniteBlock, log_thickness: Real, stress: Real, state: Deformation) -> Real:
+    """Return S : dE/dt, MPa/s, at the points, as P : dF/dt with the thickness's part; (points, rows, columns)."""
+    unknowns = np.concatenate((state.gradient, log_thickness))
+    rate: Complex = 1j * finite.frequencies.astype(complex)
+    rate[-1] = 0.0  # the phase of the last harmonic is unknown
+    power: Real = np.sum(stress * finite.convolve(rate, unknowns), axis=0)
+    return power
+
+
+def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real, Real]:
+    """Return the dissipation D, MPa/s, and the stored energy W, MPa, at the points, each (points, rows, columns)."""
+    material = finite.material
+    squared, inverse = state.isochoric_squared, state.inverse
+    volume = finite.dilatation(state.volume)
+    stored = volumetric_energy(material.long_term_bulk_modulus, volume)
+    stored = stored + 0.5 * material.long_term_shear_modulus * (_trace(squared) - 3.0)
+    lost = np.zeros_like(stored)
+    branches = zip(
+        material.branch_shear_moduli,
+        material.branch_bulk_moduli,
+        _transfers(finite),
+        material.relaxation_times,
+        strict=True,
+    )
+    for shear, bulk, transfer, time in branches:
+        behind = -finite.convolve(transfer, inverse)  # A_i - Cb^-1, without cancellation
+        branch = inverse + behind
+        lost += shear / (2.0 * time) * _excess(behind, squared, branch)
+        stored += 0.5 * shear * (_contract(branch, squared) - np.log(_determinant(branch)) - 3.0)
+        if bulk:
+            stretched = finite.convolve(transfer, volume)
+            lost += bulk / time * stretched * stretched
+            stored += 0.5 * bulk * stretched * stretched
+    return lost, stored
+
+
+def branch_tensors(finite: FiniteBlock, state: Deformation) -> Real:
+    """Return A_i, shape (branches, 4, points, rows, columns)."""
+    return np.stack([state.inverse - finite.convolve(transfer, state.inverse) for transfer in _transfers(finite)])
+
+
+def _transfers(finite: FiniteBlock) -> Complex:
+    """Return i w tau / (1 + i w tau) of every branch; the last harmonic is its own conjugate."""
+    transfers = finite.material.branch_transfer(finite.frequencies)
+    transfers[:, -1] = transfers[:, -1].real
+    return transfers
+
+
+def _excess(behind: Real, squared: Real, branch: Real) -> Real:
+    """Return A : Cb + A^-1 : Cb^-1 - 6 as the trace of (D Cb) (D A^-1), D = A - Cb^-1, which does not cancel."""
+    determinant = branch[XX] * branch[YY] - branch[XY] * branch[XY]
+    one = _product(behind, squared)
+    other = _product(behind, (branch[YY], branch[XX], -branch[XY]))
+    plane = one[0] * other[0] + one[1] * other[2] + one[2] * other[1] + one[3] * other[3]
+    excess: Real = plane / determinant + behind[ZZ] * behind[ZZ] * squared[ZZ] / branch[ZZ]
+    return excess
+
+
+def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Real, Real]:
+    """Return the in-plane product of two symmetric tensors: its components xx, xy, yx, yy."""
+    return (
+        one[XX] * other[XX] + one[XY] * other[XY],
+        one[XX] * other[XY] + one[XY] * other[YY],
+        one[XY] * other[XX] + one[YY] * other[XY],
+        one[XY] * other[XY] + one[YY] * other[YY],
+    )
+
+
+def _trace(tensor: Real) -> Real:
+    trace: Real = tensor[XX] + tensor[YY] + tensor[ZZ]
+    return trace
+
+
+def _contract(one: Real, other: Real) -> Real:
+    total: Real = one[XX] * other[XX] + one[YY] * other[YY] + 2.0 * one[XY] * other[XY] + one[ZZ] * other[ZZ]
+    return total
+
+
+def _determinant(tensor: Real) -> Real:
+    determinant: Real = (tensor[XX] * tensor[YY] - tensor[XY] * tensor[XY]) * tensor[ZZ]
+    return determinant
+
+
+def nodal_density(finite: FiniteBlock, density: Real) -> Real:
+    """Average a density from the quadrature points to the nodes by area, shape (rows + 1, columns)."""
+    shapes, weights = finite.quadrature.shapes, finite.weights
+    total = np.zeros((finite.block.rows + 1, finite.block.columns))
+    area = np.zeros((finite.block.rows + 1, 1))
+    for corner in range(4):
+        rows = slice(None, -1) if corner < 2 else slice(1, None)
+        share = shapes[:, corner, None, None] * weights
+        part = (share * density).sum(axis=0)
+        total[rows] += np.roll(part, 1, axis=1) if corner % 2 else part
+        area[rows] += share.sum(axis=0)
+    return total / area

@@ -1,0 +1,59 @@
+"""What a solved scene dissipates and stores, however it was solved: three routes to one friction coefficient."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.arrays import Real
+
+_ROUND_OFF = 1e-11
+
+
+@dataclass(frozen=True)
+class Energies:
+    """What a scene dissipates and stores.
+
+    Attributes
+    ----------
+    stress_power, dissipation, contact : float
+        Friction coefficient by each of the three routes, dimensionless.
+    depth_profile : ndarray, shape (rows + 1,)
+        Mean over a wavelength of the stored strain-energy density, MPa (= N mm/mm³), at the rows of nodes.
+    density : ndarray, shape (rows + 1, m)
+        Stored strain-energy density at the nodes of m evenly spread columns, MPa.
+    displacement : ndarray, shape (rows + 1, 2, m)
+        Displacement of those nodes, mm, without the rigid offset.
+    """
+
+    stress_power: float
+    dissipation: float
+    contact: float
+    depth_profile: Real
+    density: Real
+    displacement: Real
+
+    @property
+    def closure(self) -> float:
+        """Largest difference between two routes over the largest of them.
+
+        Friction below 1e-11 counts as 1e-11: it is the difference of forces that cancel, and round-off.
+        """
+        routes = (self.stress_power, self.dissipation, self.contact)
+        return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), _ROUND_OFF)
+
+
+def rows_to_nodes(heights: Real, cells: Real) -> Real:
+    """Average a quantity of the rows of cells to the rows of nodes, by area."""
+    total, area = np.zeros(len(heights) + 1), np.zeros(len(heights) + 1)
+    for part in (slice(None, -1), slice(1, None)):
+        total[part] += heights * cells
+        area[part] += heights
+    return total / area
+
+
+def output_stride(columns: int, most: int) -> int:
+    """Return the least stride that leaves at most ``most`` columns, the crest, the trough and the flanks among them."""
+    quarter = columns // 4
+    return next(stride for stride in range(1, quarter + 1) if quarter % stride == 0 and columns // stride <= most)

@@ -1,0 +1,93 @@
+"""What every way of solving a scene returns, and what it says about how it was solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.arrays import Real
+from rubfric.block import Block
+from rubfric.contact import Contact
+from rubfric.folding import Folding
+from rubfric.scene import Scene
+
+
+@dataclass(frozen=True)
+class Decision:
+    """Which kinematics a scene is solved in, and why.
+
+    Attributes
+    ----------
+    kinematics : {"small", "finite"}
+    correction : float
+        Estimate of the relative change of friction from small to finite strain, dimensionless.
+    reason : str
+        One sentence.
+    """
+
+    kinematics: str
+    correction: float
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadySolution:
+    """Steady sliding in the frame of the road; what all solutions have in common.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    decision : Decision
+        In small or finite strain, and why.
+    folding : Folding
+        The rubber, without the branches that the scene does not need.
+    block : Block
+        The mesh that the program chose.
+    contact : Contact
+        Pressure (vertical force over the width of a column as it was made) and gap at the surface nodes.
+    iterations : int
+        Pivoting steps of all contact solves in small strain, Newton steps in finite strain.
+    krylov : int
+        Applications of the tangent; zero in small strain.
+    resolved : bool
+        Whether the contact holds the nodes asked for (within 10 %).
+    history : tuple of str
+        What the solver tried, in order, and why it left it.
+    """
+
+    scene: Scene
+    decision: Decision
+    folding: Folding
+    block: Block
+    contact: Contact
+    iterations: int
+    resolved: bool
+    krylov: int = 0
+    history: tuple[str, ...] = ()
+
+    @property
+    def contact_fraction(self) -> float:
+        """Contact area over nominal area, dimensionless."""
+        return float(np.count_nonzero(self.contact.touching)) / self.block.columns
+
+    @property
+    def frequencies(self) -> Real:
+        """Angular frequencies n k v, rad/s, of all harmonics of the mesh but the mean, shape (columns // 2,)."""
+        return self.block.harmonics[1:] * self.scene.road.excitation_frequency(self.scene.velocity)
+
+    @property
+    def surface_position(self) -> Real:
+        """Where the surface nodes are, mm along the road, shape (columns,)."""
+        return self.block.column_positions
+
+    @property
+    def surface_stretch(self) -> Real:
+        """Area of the surface at its nodes, along the road and across, over that as it was made, shape (columns,)."""
+        return np.ones(self.block.columns)
+
+    @property
+    def compression(self) -> float:
+        """Share of its height that the load takes from the block on a flat road, dimensionless."""
+        raise NotImplementedError
