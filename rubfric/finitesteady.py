@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -13,7 +14,7 @@ from rubfric.block import Block
 from rubfric.continuation import History, Start, attempt, reach
 from rubfric.finiteblock import Fields, FiniteBlock
 from rubfric.folding import fold_scene
-from rubfric.homogeneous import pressed
+from rubfric.homogeneous import pressed, stored_energy
 from rubfric.newton import Solved, Stalled
 from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
 from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
@@ -71,7 +72,16 @@ class FiniteSolution(SteadySolution):
     @property
     def compression(self) -> float:
         """Share of its height that the load takes from the relaxed block on a flat road, dimensionless."""
-        return 1.0 - pressed(self.scene.material, self.scene.pressure, self.scene.plane)[0]
+        return 1.0 - self._pressed[0]
+
+    @property
+    def pressed_energy(self) -> float:
+        """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
+        return stored_energy(self.scene.material, *self._pressed)
+
+    @cached_property
+    def _pressed(self) -> tuple[float, float]:
+        return pressed(self.scene.material, self.scene.pressure, self.scene.plane)
 
 
 def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:

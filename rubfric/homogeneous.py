@@ -34,6 +34,15 @@ def pressed(material: Material, pressure: float, plane: str) -> tuple[float, flo
     return math.exp(stretch), math.exp(across)
 
 
+def stored_energy(material: Material, stretch: float, thickness: float) -> float:
+    """Return W of a relaxed block at the stretches that ``pressed`` returns, MPa."""
+    volume = stretch * thickness
+    bulk = material.long_term_bulk_modulus
+    trace = (1.0 + stretch * stretch + thickness * thickness) * volume ** (-2.0 / 3.0)
+    volumetric = 0.25 * bulk * (volume * volume - 1.0) - 0.5 * bulk * math.log(volume)
+    return volumetric + 0.5 * material.long_term_shear_modulus * (trace - 3.0)
+
+
 def _thickness(material: Material, log_stretch: float) -> float:
     """Return the logarithm of the stretch across the thickness where no stress acts there."""
     return float(brentq(lambda z: _stresses(material, log_stretch, z)[1], -_RANGE, _RANGE, xtol=1e-15, rtol=1e-14))

@@ -55,6 +55,11 @@ class SmallSolution(SteadySolution):
         """P over the modulus of confined compression, dimensionless; it may exceed 1."""
         return self.scene.pressure / self.scene.material.confined_modulus(self.scene.plane)
 
+    @property
+    def pressed_energy(self) -> float:
+        """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
+        return 0.5 * self.scene.pressure * self.compression
+
 
 def solve_small(scene: Scene, decision: Decision) -> SmallSolution:
     """Slide a block steadily over its scale of the road.

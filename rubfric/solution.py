@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +33,7 @@ class Decision:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SteadySolution:
+class SteadySolution(ABC):
     """Steady sliding in the frame of the road; what all solutions have in common.
 
     Attributes
@@ -88,6 +89,11 @@ class SteadySolution:
         return np.ones(self.block.columns)
 
     @property
+    @abstractmethod
     def compression(self) -> float:
-        """Share of its height that the load takes from the block on a flat road, dimensionless."""
-        raise NotImplementedError
+        """Share of its height that the load takes from the relaxed block on a flat road, dimensionless."""
+
+    @property
+    @abstractmethod
+    def pressed_energy(self) -> float:
+        """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
