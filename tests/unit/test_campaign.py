@@ -52,6 +52,8 @@ UNKNOWN_KEYS = [
 ]
 MISSING_KEYS = [
     Bad("plane", MISSING, "config lacks the key 'plane'"),
+    Bad("kinematics", MISSING, "config lacks the key 'kinematics'"),
+    Bad("numerics.accuracy", MISSING, "numerics lacks the key 'accuracy'"),
     Bad("grid.aspect", MISSING, "grid lacks the key 'aspect'"),
     Bad("aspect_study.scales", MISSING, "aspect_study lacks the key 'scales'"),
     Bad("figures.fields", MISSING, "figures lacks the key 'fields'"),
@@ -115,6 +117,10 @@ OUT_OF_RANGE = [
     Bad("figures.fields.pressures", [9], "has 9, but must be chosen from grid.pressures: 0.1, 0.2, ", False),
     Bad("numerics.contact_nodes", 3, "numerics.contact_nodes is 3, but must be a whole number of at least 4"),
     Bad("numerics.contact_nodes", 6.5, "numerics.contact_nodes is 6.5, but must be a whole number"),
+    Bad("numerics.accuracy", 0, "numerics.accuracy is 0, but must be at least 1e-06"),
+    Bad("numerics.accuracy", 0.6, "numerics.accuracy is 0.6, but must be at most 0.5"),
+    Bad("numerics.finite_contact_nodes", 3, "numerics.finite_contact_nodes is 3, but must be a whole number of at lea"),
+    Bad("numerics.finite_columns_min", 100, "numerics.finite_columns_min is 100, but must be a multiple of 8"),
     Bad("numerics.columns_min", 100, "numerics.columns_min is 100, but must be a multiple of 8"),
     Bad("numerics.columns_max", 1001, "numerics.columns_max is 1001, but must be a multiple of 8"),
     Bad("numerics.output_columns", 0, "numerics.output_columns is 0, but must be a whole number of at least 1"),
@@ -124,6 +130,7 @@ OUT_OF_RANGE = [
 ]
 BAD_MODELS = [
     Bad("plane", "stresses", r"plane is 'stresses', but must be one of stress, strain \(did you mean stress\?\)"),
+    Bad("kinematics", "larg", r"kinematics is 'larg', but must be one of small, finite, auto"),
     Bad("rubber", "zhou", r"rubber is 'zhou', but must be one of zhou2019 \(did you mean zhou2019\?\)", schema=False),
     Bad("road", "gravel", "road is 'gravel', but must be one of zhou2019$", schema=False),
     Bad("rubber", ["zhou2019"], r"rubber is \['zhou2019'\], but must be one of zhou2019"),
@@ -222,6 +229,16 @@ def test_scene_takes_the_configs_values_where_none_are_given() -> None:
     assert scene.road == campaign.road[3]
     assert scene.material == campaign.material
     assert scene.numerics == campaign.numerics
+    assert scene.kinematics == campaign.kinematics == "auto"
+
+
+@pytest.mark.parametrize("kinematics", ["small", "finite", "auto"])
+def test_kinematics_of_the_config_is_that_of_every_scene(tmp_path: Path, kinematics: str) -> None:
+    overlay = tmp_path / "mine.yaml"
+    overlay.write_text(f"kinematics: {kinematics}\n")
+    campaign = load(DEFAULT, overlay)
+    assert {scene.kinematics for scene in campaign.scenes().values()} == {kinematics}
+    assert campaign.scene(1, 1, 1, kinematics="small").kinematics == "small"
 
 
 def test_scene_need_not_lie_on_the_grid() -> None:

@@ -16,6 +16,7 @@ from rubfric.simulation import simulate
 
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"
 SCENE = ["simulate", "--config", str(CONFIG), "--scale", "1", "--velocity", "100", "--pressure", "5"]
+SCENE += ["--kinematics", "small"]  # the faster one
 
 
 def printed_friction(text: str) -> str:
@@ -26,7 +27,7 @@ def printed_friction(text: str) -> str:
 
 def test_prints_the_friction_that_the_api_gives(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(SCENE) == 0
-    expected = simulate(load(CONFIG).scene(1, 100, 5))
+    expected = simulate(load(CONFIG).scene(1, 100, 5, kinematics="small"))
     captured = capsys.readouterr()
     assert printed_friction(captured.out) == f"{float(expected['friction_coefficient']):.5g}"
     assert captured.err == ""
@@ -34,10 +35,24 @@ def test_prints_the_friction_that_the_api_gives(capsys: pytest.CaptureFixture[st
 
 def test_plane_and_aspect_replace_those_of_the_config(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([*SCENE, "--plane", "strain", "--aspect", "0.5"]) == 0
-    expected = simulate(load(CONFIG).scene(1, 100, 5, aspect=0.5, plane="strain"))
+    expected = simulate(load(CONFIG).scene(1, 100, 5, aspect=0.5, plane="strain", kinematics="small"))
     out = capsys.readouterr().out
     assert printed_friction(out) == f"{float(expected['friction_coefficient']):.5g}"
     assert "height/width 0.5, plane strain" in out
+
+
+@pytest.mark.parametrize("kinematics", ["small", "finite"])
+def test_kinematics_replaces_that_of_the_config(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], kinematics: str
+) -> None:
+    overlay = tmp_path / "coarse.yaml"
+    overlay.write_text("numerics:\n  finite_columns_min: 64\n  finite_contact_nodes: 8\n  row_growth: 1.4\n")
+    assert cli.main([*SCENE, "--kinematics", kinematics, "--config", str(overlay)]) == 0
+    expected = simulate(load(CONFIG, overlay).scene(1, 100, 5, kinematics=kinematics))
+    out = capsys.readouterr().out
+    assert printed_friction(out) == f"{float(expected['friction_coefficient']):.5g}"
+    assert f"plane stress, {kinematics} strain\n" in out
+    assert out.splitlines()[-1].endswith(f"{kinematics} strain was asked for")
 
 
 def test_writes_the_result_where_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -98,6 +113,7 @@ def test_missing_config_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["simulate", "--scale", "1", "--velocity", "1"], "required: --pressure"),
         ([*SCENE, "--velocity", "fast"], "invalid float value: 'fast'"),
         ([*SCENE, "--plane", "flat"], "invalid choice: 'flat'"),
+        ([*SCENE, "--kinematics", "large"], "invalid choice: 'large'"),
         (["simulat"], "invalid choice: 'simulat'"),
     ],
 )

@@ -22,7 +22,7 @@ from rubfric.simulation import simulate
 SHARED = {
     "rubber": "r",
     "plane": "stress",
-    "kinematics": "small strain",
+    "kinematics": "auto",
     "scene_parameters": '{"material": {"name": "r"}, "numerics": {"contact_nodes": 64}}',
 }
 ROAD = {1: {"amplitude": 0.015, "wavenumber": 35.0}, 2: {"amplitude": 0.006, "wavenumber": 80.0}}
@@ -95,7 +95,7 @@ OTHER_NUMERICS = '{"material": {"name": "r"}, "numerics": {"contact_nodes": 8}}'
     [
         ({"rubber": "other"}, "rubber other"),
         ({"plane": "strain"}, "plane strain"),
-        ({"kinematics": "finite strain"}, "kinematics finite strain"),
+        ({"kinematics": "finite"}, "kinematics finite"),
         ({"scene_parameters": OTHER_NUMERICS}, 'numerics {"contact_nodes": 8}'),
     ],
 )
@@ -140,12 +140,20 @@ def test_foreign_and_missing_files_are_named(tmp_path: Path) -> None:
         collect([tmp_path / "nowhere.nc"])
 
 
-def test_real_results_are_collected(tmp_path: Path) -> None:
+@pytest.mark.parametrize("kinematics", ["small", "finite"])
+def test_real_results_are_collected(tmp_path: Path, kinematics: str) -> None:
     rubber = Material("r", 4.17, 0.49, (0.5,), (1e-4,))
-    coarse = Numerics(contact_nodes=8, columns_min=32, row_growth=1.5, output_columns=16)
+    coarse = Numerics(
+        contact_nodes=8,
+        finite_contact_nodes=4,
+        columns_min=32,
+        finite_columns_min=32,
+        row_growth=1.5,
+        output_columns=16,
+    )
     results = []
     for velocity in (1.0, 100.0):
-        scene = Scene(1, SineScale(0.015, 35.0), velocity, 0.5, 0.75, rubber, "stress", coarse)
+        scene = Scene(1, SineScale(0.015, 35.0), velocity, 0.5, 0.75, rubber, "stress", coarse, kinematics)
         results.append(simulate(scene))
         write(results[-1], tmp_path / f"{scene.name}.nc")
     campaign = collect(sorted(tmp_path.iterdir()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,18 +12,35 @@ import pytest
 import xarray as xr
 
 from rubfric import dataset
+from rubfric.cautions import cautions
 from rubfric.errors import BrokenResult
+from rubfric.finiteenergy import evaluate_finite
+from rubfric.finitesteady import solve_finite
+from rubfric.homogeneous import pressed
 from rubfric.material import Material
 from rubfric.road import SineScale
 from rubfric.scalars import SCALARS
 from rubfric.scene import Numerics, Scene
 from rubfric.simulation import simulate
+from rubfric.smallenergy import evaluate_small
+from rubfric.smallsteady import solve_small
+from rubfric.solution import Decision
 
 RUBBER = Material("small", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
 ROAD = SineScale(0.015, 35.0)
-COARSE = Numerics(contact_nodes=16, columns_min=64, columns_max=1024, row_growth=1.4, output_columns=32)
-PARTIAL = Scene(1, ROAD, 100.0, 0.1, 0.75, RUBBER, "stress", COARSE)
+COARSE = Numerics(
+    contact_nodes=16,
+    finite_contact_nodes=12,
+    columns_min=64,
+    finite_columns_min=64,
+    columns_max=1024,
+    row_growth=1.4,
+    output_columns=32,
+)
+PARTIAL = Scene(1, ROAD, 100.0, 0.1, 0.75, RUBBER, "stress", COARSE, "small")
 FULL = replace(PARTIAL, pressure=5.0)
+FINITE = replace(PARTIAL, kinematics="finite")
+FINITE_FULL = replace(FULL, kinematics="finite")
 NODAL = ("displacement_x", "displacement_y", "strain_energy_density")
 
 
@@ -36,8 +54,28 @@ def full() -> xr.Dataset:
     return simulate(FULL)
 
 
-@pytest.fixture(params=["partial", "full"])
+@pytest.fixture(scope="module")
+def finite() -> xr.Dataset:
+    return simulate(FINITE)
+
+
+@pytest.fixture(scope="module")
+def finite_full() -> xr.Dataset:
+    return simulate(FINITE_FULL)
+
+
+@pytest.fixture(params=["partial", "full", "finite", "finite_full"])
 def result(request: pytest.FixtureRequest) -> xr.Dataset:
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(params=["partial", "full"])
+def small_result(request: pytest.FixtureRequest) -> xr.Dataset:
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(params=["finite", "finite_full"])
+def finite_result(request: pytest.FixtureRequest) -> xr.Dataset:
     return request.getfixturevalue(request.param)
 
 
@@ -53,7 +91,9 @@ def on_grid(result: xr.Dataset, name: str) -> np.ndarray:
     return result[name].values.reshape(result.sizes["depth"], -1)
 
 
-def test_scenes_are_in_partial_and_full_contact(partial: xr.Dataset, full: xr.Dataset) -> None:
+@pytest.mark.parametrize(("some", "all_over"), [("partial", "full"), ("finite", "finite_full")])
+def test_scenes_are_in_partial_and_full_contact(some: str, all_over: str, request: pytest.FixtureRequest) -> None:
+    partial, full = request.getfixturevalue(some), request.getfixturevalue(all_over)
     assert 0.0 < float(partial["contact_fraction"]) < 0.5
     assert float(full["contact_fraction"]) == 1.0
     assert int(partial["columns"]) > COARSE.output_columns
@@ -61,6 +101,11 @@ def test_scenes_are_in_partial_and_full_contact(partial: xr.Dataset, full: xr.Da
 
 def test_file_holds_what_was_written(partial: xr.Dataset, stored: Path) -> None:
     xr.testing.assert_identical(dataset.read(stored), partial)
+
+
+def test_file_holds_what_was_written_in_finite_strain(finite: xr.Dataset, tmp_path: Path) -> None:
+    dataset.write(finite, tmp_path / "finite.nc")
+    xr.testing.assert_identical(dataset.read(tmp_path / "finite.nc"), finite)
 
 
 def test_any_netcdf_reader_opens_it(partial: xr.Dataset, stored: Path) -> None:
@@ -157,10 +202,41 @@ def test_road_height_is_the_road(result: xr.Dataset) -> None:
     np.testing.assert_allclose(result["road_height"].values, expected, atol=1e-15)
 
 
-def test_surface_lies_above_the_road_by_the_gap(result: xr.Dataset) -> None:
-    height = (result["gap"] + result["road_height"]).values
-    surface = on_grid(result, "displacement_y")[0, :-1]
+def test_surface_lies_above_the_road_by_the_gap(small_result: xr.Dataset) -> None:
+    height = (small_result["gap"] + small_result["road_height"]).values
+    surface = on_grid(small_result, "displacement_y")[0, :-1]
     np.testing.assert_allclose(surface, height[:: len(height) // len(surface)], rtol=0.0, atol=1e-12 * ROAD.amplitude)
+
+
+def test_deformed_surface_lies_above_the_road_by_the_gap_where_it_is(finite_result: xr.Dataset) -> None:
+    position = finite_result["surface_position"].values
+    surface = on_grid(finite_result, "displacement_y")[0, :-1]
+    height = finite_result["gap"].values + ROAD.height(position)
+    np.testing.assert_allclose(surface, height[:: len(height) // len(surface)], rtol=0.0, atol=1e-4 * ROAD.amplitude)
+
+
+def test_surface_has_moved_by_its_displacement(finite_result: xr.Dataset) -> None:
+    moved = on_grid(finite_result, "displacement_x")[0, :-1]
+    along = (finite_result["surface_position"] - finite_result["surface_x"]).values
+    np.testing.assert_allclose(moved, along[:: len(along) // len(moved)], rtol=0.0, atol=1e-12 * ROAD.amplitude)
+    assert np.ptp(along) > 1e-2 * ROAD.amplitude
+
+
+def test_small_strain_surface_stays_where_it_was_made(small_result: xr.Dataset) -> None:
+    np.testing.assert_array_equal(small_result["surface_position"].values, small_result["surface_x"].values)
+    np.testing.assert_array_equal(
+        small_result["local_contact_pressure"].values, small_result["contact_pressure"].values
+    )
+
+
+@pytest.mark.parametrize("scene", [FINITE, FINITE_FULL, replace(FINITE, plane="strain")])
+def test_local_pressure_is_that_on_the_stretched_surface(scene: Scene) -> None:
+    solution = solve_finite(scene, Decision("finite", 0.0, "finite strain was asked for"))
+    result = dataset.build(solution, evaluate_finite(solution), 1.0)
+    local, nominal = result["local_contact_pressure"].values, result["contact_pressure"].values
+    np.testing.assert_allclose(local * solution.surface_stretch, nominal, rtol=1e-14)
+    assert np.ptp(solution.surface_stretch) > 1e-3
+    assert float(result["maximum_local_contact_pressure"]) == local.max()
 
 
 def test_top_moves_sideways_as_a_whole(result: xr.Dataset) -> None:
@@ -179,99 +255,70 @@ def test_attributes_tell_where_a_result_comes_from(result: xr.Dataset) -> None:
     assert attributes["scene"] == f"scale1_v100_p{attributes['pressure']:g}_aspect0.75_stress"
     assert attributes["rubber"] == "small"
     assert attributes["plane"] == "stress"
-    assert attributes["kinematics"] == "small strain"
     assert "doi:10.1049/joe.2018.9163" in attributes["references"]
     for name in ("Python", "numpy", "scipy", "scikit-fem", "xarray", "netCDF4"):
         assert f"{name} " in attributes["software"]
     assert (attributes["velocity"], attributes["amplitude"], attributes["wavenumber"]) == (100.0, 0.015, 35.0)
 
 
-def test_attributes_suffice_to_compute_the_result_again(stored: Path) -> None:
-    known = dataset.read(stored)
+def test_attributes_tell_how_small_strain_was_solved(small_result: xr.Dataset) -> None:
+    attributes = small_result.attrs
+    assert (attributes["kinematics"], attributes["kinematics_used"]) == ("small", "small")
+    assert attributes["kinematics_reason"] == "small strain was asked for"
+    assert "contact" in attributes["solver_history"]
+    assert int(small_result["finite_strain"]) == int(small_result["krylov_iterations"]) == 0
+
+
+def test_attributes_tell_how_finite_strain_was_solved(finite_result: xr.Dataset) -> None:
+    attributes = finite_result.attrs
+    assert (attributes["kinematics"], attributes["kinematics_used"]) == ("finite", "finite")
+    assert attributes["kinematics_reason"] == "finite strain was asked for"
+    columns = int(finite_result["columns"])
+    last = attributes["solver_history"].splitlines()[-1]
+    assert re.match(rf"{columns} columns, .*: converged in \d+ Newton steps, \d+ Krylov iterations$", last)
+    assert int(finite_result["finite_strain"]) == 1
+    assert int(finite_result["krylov_iterations"]) > 0
+
+
+def test_kinematics_asked_for_and_used_differ_where_the_program_decided() -> None:
+    solution = solve_small(replace(PARTIAL, kinematics="auto"), Decision("small", 0.003, "it is accurate enough"))
+    result = dataset.build(solution, evaluate_small(solution), 1.0)
+    assert (result.attrs["kinematics"], result.attrs["kinematics_used"]) == ("auto", "small")
+    assert result.attrs["kinematics_reason"] == "it is accurate enough"
+    assert float(result["finite_strain_correction"]) == 0.003
+
+
+def test_only_small_strain_leaves_out_the_mean_shear(partial: xr.Dataset, finite: xr.Dataset) -> None:
+    assert partial["displacement_x"].attrs["long_name"].endswith("without the mean shear that friction causes")
+    assert finite["displacement_x"].attrs["long_name"] == "displacement along the road"
+
+
+@pytest.mark.parametrize("asked", [PARTIAL, FINITE])
+def test_attributes_suffice_to_compute_the_result_again(asked: Scene, tmp_path: Path) -> None:
+    dataset.write(simulate(asked), tmp_path / "scene.nc")
+    known = dataset.read(tmp_path / "scene.nc")
     scene = Scene.from_parameters(json.loads(known.attrs["scene_parameters"]))
-    assert scene == PARTIAL
+    assert scene == asked
     assert scene.digest == known.attrs["scene_digest"]
     again = simulate(scene)
     assert again.attrs == known.attrs
     xr.testing.assert_allclose(again.drop_vars("wall_time"), known.drop_vars("wall_time"), rtol=1e-12, atol=1e-14)
 
 
-def test_nominal_compression_is_load_over_confined_modulus(partial: xr.Dataset, full: xr.Dataset) -> None:
+def test_nominal_compression_is_that_on_a_flat_road(
+    partial: xr.Dataset, full: xr.Dataset, finite: xr.Dataset, finite_full: xr.Dataset
+) -> None:
     confined = RUBBER.confined_modulus("stress")
     assert float(partial["nominal_compression"]) == pytest.approx(0.1 / confined)
     assert float(full["nominal_compression"]) == pytest.approx(5.0 / confined)
+    assert float(finite["nominal_compression"]) == pytest.approx(1.0 - pressed(RUBBER, 0.1, "stress")[0])
+    assert float(finite_full["nominal_compression"]) == pytest.approx(1.0 - pressed(RUBBER, 5.0, "stress")[0])
 
 
-def test_harmless_scene_has_no_warning() -> None:
-    assert simulate(replace(PARTIAL, pressure=0.05, numerics=Numerics())).attrs["warnings"] == ""
-
-
-def test_routes_that_differ_are_noted() -> None:
-    result = simulate(replace(PARTIAL, numerics=COARSE))
-    closure = float(result["energy_closure"])
-    assert closure > 0.01
-    assert f"The three friction coefficients differ by {closure:.1%}" in result.attrs["warnings"]
-
-
-def test_steep_road_is_noted() -> None:
-    steep = simulate(replace(PARTIAL, road=SineScale(0.04, 35.0)))
-    assert "The road's slope reaches 1.4: small slopes are assumed." in steep.attrs["warnings"]
-
-
-def test_negative_effective_poissons_ratio_is_noted(paper_rubber: Material) -> None:
-    fast = Scene(4, SineScale(0.002, 300.0), 1e4, 0.1, 0.75, paper_rubber, "stress", COARSE)
-    notes = simulate(fast).attrs["warnings"].splitlines()
-    assert float(paper_rubber.effective_poissons_ratio(3e6)) < 0.0
-    expected = (
-        f"The effective Poisson's ratio is {float(paper_rubber.effective_poissons_ratio(3e6)):.2f}: the shear modulus"
-    )
-    assert notes[0].startswith(expected)
-    assert "bulk: proportional avoids this" in notes[0]
-
-
-def test_proportional_bulk_avoids_that_note(paper_rubber: Material) -> None:
-    rubber = replace(paper_rubber, bulk="proportional")
-    fast = Scene(4, SineScale(0.002, 300.0), 1e4, 0.1, 0.75, rubber, "stress", COARSE)
-    assert "Poisson" not in simulate(fast).attrs["warnings"]
-
-
-def test_large_compression_is_noted(full: xr.Dataset) -> None:
-    percent = f"{float(full['nominal_compression']):.0%}"
-    assert full.attrs["warnings"] == (
-        f"The load presses the block by {percent} of its height: small strain is only indicative here."
-    )
-
-
-@pytest.mark.parametrize(("share", "noted"), [(0.09, False), (0.11, True)])
-def test_compression_is_noted_from_ten_percent(share: float, noted: bool) -> None:
-    scene = replace(PARTIAL, pressure=share * RUBBER.confined_modulus("stress"))
-    assert ("small strain is only indicative" in simulate(scene).attrs["warnings"]) == noted
-
-
-@pytest.mark.parametrize(("frequency", "noted"), [(4.2e5, False), (5e5, True)])
-def test_poissons_ratio_is_noted_where_it_is_negative(paper_rubber: Material, frequency: float, noted: bool) -> None:
-    scene = replace(PARTIAL, velocity=frequency / 35.0, material=paper_rubber)
-    assert (float(paper_rubber.effective_poissons_ratio(frequency)) < 0.0) == noted
-    assert ("Poisson" in simulate(scene).attrs["warnings"]) == noted
-
-
-def test_speed_near_that_of_shear_waves_is_noted() -> None:
-    heavy = replace(RUBBER, density=1e-4)
-    notes = (
-        simulate(replace(PARTIAL, pressure=0.05, material=heavy, numerics=Numerics())).attrs["warnings"].splitlines()
-    )
-    assert len(notes) == 1
-    assert notes[0].endswith("of the shear-wave speed: inertia is neglected, but would matter.")
-
-
-def test_contact_that_the_mesh_cannot_resolve_is_noted() -> None:
-    tiny = replace(COARSE, columns_max=64)
-    result = simulate(replace(PARTIAL, numerics=tiny))
-    touching = int(result["contact_nodes"])
-    assert touching < 0.9 * tiny.contact_nodes
-    assert (
-        f"Only {touching} surface nodes touch the road, fewer than the 16 asked for: raise numerics.columns_max."
-    ) in result.attrs["warnings"].splitlines()
+def test_cautions_stand_among_the_attributes(full: xr.Dataset) -> None:
+    solution = solve_small(FULL, Decision("small", 0.0, "small strain was asked for"))
+    expected = cautions(solution, float(full["energy_closure"]))
+    assert full.attrs["warnings"].splitlines() == expected
 
 
 def test_write_makes_the_folders(partial: xr.Dataset, tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ WORKFLOW = PACKAGE.parent / "workflow"
 FLOORS = [
     {"errors", "arrays", "atomic"},
     {"checks"},
-    {"material", "road"},
+    {"material", "road", "choices"},
     {"reference"},
     {"scene", "homogeneous"},
     {"folding", "cell", "finitestrain"},
@@ -38,7 +38,6 @@ FLOORS = [
     {"collection"},
     {"tables"},
     {"figures"},
-    {"choices"},
     {"campaign"},
     {"sources"},
     {"jobs", "warm", "cli"},

@@ -72,6 +72,11 @@ def test_from_parameters_leaves_its_argument_alone(paper_scene: SceneMaker) -> N
         {"numerics": Numerics(row_growth=1.16)},
         {"numerics": Numerics(first_row=0.9)},
         {"numerics": Numerics(output_columns=64)},
+        {"numerics": Numerics(accuracy=0.02)},
+        {"numerics": Numerics(finite_contact_nodes=25)},
+        {"numerics": Numerics(finite_columns_min=136)},
+        {"kinematics": "finite"},
+        {"kinematics": "auto"},
     ],
 )
 def test_digest_changes_with_the_scene(paper_scene: SceneMaker, change: dict[str, object]) -> None:
@@ -115,6 +120,7 @@ def test_digest_is_a_sha256(paper_scene: SceneMaker) -> None:
         ({"aspect": 0}, r"^aspect is 0, but must be greater than 0$"),
         ({"scale": 0}, r"^scale is 0, but must be a whole number of at least 1$"),
         ({"scale": 1.5}, r"^scale is 1\.5, but must be a whole number of at least 1$"),
+        ({"kinematics": "finit"}, r"^kinematics is 'finit', but must be one of small, finite, auto \(did you mean fin"),
         ({"plane": "strian"}, r"^plane is 'strian', but must be one of stress, strain \(did you mean strain\?\)$"),
     ],
 )
@@ -127,6 +133,16 @@ def test_bad_scenes_are_refused(paper_scene: SceneMaker, change: dict[str, objec
     ("change", "complaint"),
     [
         ({"contact_nodes": 3}, r"^numerics\.contact_nodes is 3, but must be a whole number of at least 4$"),
+        (
+            {"finite_contact_nodes": 3},
+            r"^numerics\.finite_contact_nodes is 3, but must be a whole number of at least 4$",
+        ),
+        ({"contact_nodes": 5000}, r"^numerics\.contact_nodes is 5000, but must be at most 4096$"),
+        ({"finite_contact_nodes": 5000}, r"^numerics\.finite_contact_nodes is 5000, but must be at most 4096$"),
+        ({"accuracy": 0.0}, r"^numerics\.accuracy is 0, but must be at least 1e-06$"),
+        ({"accuracy": 0.6}, r"^numerics\.accuracy is 0\.6, but must be at most 0\.5$"),
+        ({"finite_columns_min": 100}, r"^numerics\.finite_columns_min is 100, but must be a multiple of 8$"),
+        ({"finite_columns_min": 2**16}, r"^numerics\.columns_max is 32768, but must be at least 65536$"),
         ({"columns_min": 100}, r"^numerics\.columns_min is 100, but must be a multiple of 8$"),
         ({"columns_max": 8.5}, r"^numerics\.columns_max is 8\.5, but must be a whole number"),
         ({"columns_max": 128}, r"^numerics\.columns_max is 128, but must be at least 256$"),
@@ -159,6 +175,19 @@ def test_blocks_too_flat_for_the_mesh_are_refused(paper_scene: SceneMaker) -> No
     assert paper_scene(1.0, 5.0, aspect=0.01, numerics=numerics).aspect == 0.01
     with pytest.raises(InvalidInput, match=r"^aspect is 0\.007, but must be at least 0\.00781: so flat a block needs"):
         paper_scene(1.0, 5.0, aspect=0.007, numerics=numerics)
+
+
+def test_kinematics_is_left_to_the_program_by_default(paper_scene: SceneMaker) -> None:
+    parameters = paper_scene(1.0, 5.0).parameters()
+    del parameters["kinematics"], parameters["plane"]
+    road, rubber = SineScale(**parameters["road"]), Material(**parameters["material"])
+    scene = Scene(1, road, 1.0, 5.0, 0.75, rubber)
+    assert (scene.plane, scene.kinematics) == ("stress", "auto")
+
+
+def test_name_does_not_tell_the_kinematics(paper_scene: SceneMaker) -> None:
+    # A campaign has one kinematics, and a name its place in it.
+    assert paper_scene(1.0, 5.0, kinematics="finite").name == paper_scene(1.0, 5.0, kinematics="small").name
 
 
 def test_config_and_code_have_the_same_numerics() -> None:

@@ -9,24 +9,40 @@ import pytest
 import xarray as xr
 
 import rubfric
-from rubfric import contact, energy, steady
+from rubfric import contact, continuation, energy, simulation, steady
 from rubfric.errors import NotConverged
 from rubfric.material import Material
+from rubfric.newton import Stalled
 from rubfric.road import SineScale
 from rubfric.scene import Numerics, Scene
 from rubfric.simulation import simulate
 
+KINEMATICS = pytest.mark.parametrize("kinematics", ["small", "finite"])
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"
 
 
 @pytest.fixture
 def scene() -> Scene:
     rubber = Material("small", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
-    coarse = Numerics(contact_nodes=16, columns_min=64, row_growth=1.4, output_columns=32)
-    return Scene(1, SineScale(0.015, 35.0), 100.0, 0.5, 0.75, rubber, "stress", coarse)
+    coarse = Numerics(
+        contact_nodes=16,
+        finite_contact_nodes=8,
+        columns_min=64,
+        finite_columns_min=32,
+        row_growth=1.4,
+        output_columns=32,
+    )
+    return Scene(1, SineScale(0.015, 35.0), 100.0, 0.5, 0.75, rubber, "stress", coarse, "small")
 
 
-def test_dataset_holds_what_the_solver_and_the_energies_say(scene: Scene) -> None:
+@pytest.fixture
+def finite(scene: Scene) -> Scene:
+    return replace(scene, kinematics="finite")
+
+
+@KINEMATICS
+def test_dataset_holds_what_the_solver_and_the_energies_say(scene: Scene, kinematics: str) -> None:
+    scene = replace(scene, kinematics=kinematics)
     result = simulate(scene)
     solution = steady.solve(scene)
     energies = energy.evaluate(solution)
@@ -39,7 +55,9 @@ def test_dataset_holds_what_the_solver_and_the_energies_say(scene: Scene) -> Non
     assert int(result["iterations"]) == solution.iterations
 
 
-def test_same_scene_gives_the_same_numbers(scene: Scene) -> None:
+@KINEMATICS
+def test_same_scene_gives_the_same_numbers(scene: Scene, kinematics: str) -> None:
+    scene = replace(scene, kinematics=kinematics)
     first, second = (simulate(scene).drop_vars("wall_time") for _ in range(2))
     xr.testing.assert_identical(first, second)
 
@@ -56,6 +74,17 @@ def test_scene_that_does_not_converge_has_no_result(scene: Scene, monkeypatch: p
         simulate(scene)
 
 
+def test_scene_that_does_not_converge_in_finite_strain_has_no_result(
+    finite: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stall(*_: object) -> None:
+        raise Stalled("too many steps", 3, 0.5)
+
+    monkeypatch.setattr(continuation, "newton", stall)
+    with pytest.raises(NotConverged, match=rf"^{finite.name}: not converged after \d+ steps, distance from balance"):
+        simulate(finite)
+
+
 def test_full_contact_needs_no_steps(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact, "MOST_STEPS", 0)
     assert int(simulate(replace(scene, pressure=50.0))["iterations"]) == 0
@@ -64,6 +93,12 @@ def test_full_contact_needs_no_steps(scene: Scene, monkeypatch: pytest.MonkeyPat
 def test_three_lines_of_the_package_answer() -> None:
     campaign = rubfric.load(CONFIG)
     result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
+    assert float(result.friction_coefficient) == pytest.approx(0.206, rel=0.01)
+
+
+def test_three_lines_answer_in_small_strain_too() -> None:
+    campaign = rubfric.load(CONFIG)
+    result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5, kinematics="small"))
     assert float(result.friction_coefficient) == pytest.approx(0.1287, abs=5e-5)
 
 
@@ -78,5 +113,13 @@ def test_package_offers_what_it_lists() -> None:
 def test_routes_that_contradict_each_other_are_no_result() -> None:
     campaign = rubfric.load(CONFIG)
     rubber = replace(campaign.material, poissons_ratio=0.499999999999)
+    scene = replace(campaign.scene(1, 100, 0.5, plane="strain", kinematics="small"), material=rubber)
     with pytest.raises(NotConverged, match="relative difference of the three friction coefficients is"):
-        rubfric.simulate(replace(campaign.scene(1, 100, 0.5, plane="strain"), material=rubber))
+        rubfric.simulate(scene)
+
+
+@KINEMATICS
+def test_routes_must_agree_in_either_kinematics(scene: Scene, kinematics: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(simulation, "_MOST_CLOSURE", 1e-9)
+    with pytest.raises(NotConverged, match="relative difference of the three friction coefficients is"):
+        simulate(replace(scene, kinematics=kinematics))

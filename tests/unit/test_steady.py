@@ -1,3 +1,5 @@
+"""One scene, solved in the kinematics that was decided on."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -5,125 +7,35 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric import contact as contact_module
-from rubfric import reference, steady
-from rubfric.errors import NotConverged
+from rubfric import steady
+from rubfric.finitesteady import FiniteSolution
 from rubfric.scene import Numerics, Scene
-from rubfric.strain import synthesise
+from rubfric.smallsteady import SmallSolution, solve_small
+from rubfric.solution import Decision
 
 SceneMaker = Callable[..., Scene]
-PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+COARSE = Numerics(finite_contact_nodes=4, finite_columns_min=32, row_growth=1.4)
 
 
-@PLANES
-def test_full_contact_takes_one_harmonic_and_no_pivots(paper_scene: SceneMaker, plane: str) -> None:
-    scene = paper_scene(1.0, 5.0, plane=plane)
-    solution = steady.solve(scene)
-    assert solution.iterations == 0
-    assert solution.resolved
-    assert solution.contact_fraction == 1.0
-    assert solution.block.columns == scene.numerics.columns_min
-    np.testing.assert_array_equal(solution.response.harmonics, [1])
-    surface = 2.0 * np.real(solution.surface[0] * np.exp(1j * scene.road.wavenumber * solution.block.column_positions))
-    np.testing.assert_allclose(surface, scene.road.height(solution.block.column_positions), atol=1e-16)
+@pytest.mark.parametrize(("kinematics", "kind"), [("small", SmallSolution), ("finite", FiniteSolution)])
+def test_scene_is_solved_as_it_asks(paper_scene: SceneMaker, kinematics: str, kind: type) -> None:
+    solution = steady.solve(paper_scene(100.0, 0.5, kinematics=kinematics, numerics=COARSE))
+    assert type(solution) is kind
+    assert solution.decision.kinematics == kinematics
 
 
-@PLANES
-def test_surface_stands_on_the_road_and_above_it_by_the_gap(paper_scene: SceneMaker, plane: str) -> None:
-    scene = paper_scene(1000.0, 5.0, plane=plane)
-    solution = steady.solve(scene)
-    surface = (
-        synthesise(solution.surface, solution.response.harmonics, solution.block.columns) + solution.contact.offset
-    )
-    road = scene.road.height(solution.block.column_positions)
-    np.testing.assert_allclose(surface, road + solution.contact.gap, atol=1e-10 * scene.road.amplitude)
-    assert solution.contact.pressure.mean() == pytest.approx(5.0, rel=1e-12)
-
-
-@PLANES
-@pytest.mark.parametrize(("velocity", "pressure"), [(1e4, 5.0), (1000.0, 0.5), (1000.0, 0.02)])
-def test_mesh_follows_the_contact(paper_scene: SceneMaker, plane: str, velocity: float, pressure: float) -> None:
-    solution = steady.solve(paper_scene(velocity, pressure, plane=plane))
-    inside = np.count_nonzero(solution.contact.touching)
-    assert solution.resolved
-    assert 0.9 * 64 <= inside <= 1.35 * 64
-    assert solution.block.columns % 8 == 0
-    assert solution.contact_fraction == inside / solution.block.columns
-
-
-def test_mesh_has_the_proportions_asked_for(paper_scene: SceneMaker) -> None:
-    block = steady.solve(paper_scene(1e4, 5.0, numerics=Numerics(row_growth=1.3, first_row=0.5))).block
-    heights = np.diff(block.row_positions)
-    assert heights[0] == pytest.approx(0.5 * block.column_width, rel=1e-9)
-    assert 1.25 < heights[1] / heights[0] <= 1.3
-    assert block.row_positions[-1] == pytest.approx(0.75 * block.width, rel=1e-12)
-
-
-def test_more_contact_nodes_make_a_finer_mesh(paper_scene: SceneMaker) -> None:
-    coarse, fine = (steady.solve(paper_scene(1e4, 5.0, numerics=Numerics(contact_nodes=nodes))) for nodes in (64, 128))
-    assert fine.block.columns == pytest.approx(2 * coarse.block.columns, rel=0.1)
-    assert np.count_nonzero(fine.contact.touching) >= 0.9 * 128
-
-
-def test_mesh_is_refined_where_the_first_guess_was_too_coarse(
-    paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("kinematics", "kind"), [("small", SmallSolution), ("finite", FiniteSolution)])
+def test_decision_decides_and_is_kept(
+    paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch, kinematics: str, kind: type
 ) -> None:
+    decision = Decision(kinematics, 0.1, "a coin was tossed")
+    monkeypatch.setattr(steady, "decide", lambda _: decision)
+    solution = steady.solve(paper_scene(100.0, 0.5, kinematics="auto", numerics=COARSE))
+    assert type(solution) is kind
+    assert solution.decision is decision
+
+
+def test_solution_is_that_of_the_solver(paper_scene: SceneMaker) -> None:
     scene = paper_scene(1000.0, 0.5)
-    found = steady.solve(scene)
-    monkeypatch.setattr(steady, "_scout", lambda *_: (256, np.ones(256, dtype=bool), 3))
-    refined = steady.solve(scene)
-    assert refined.resolved
-    assert np.count_nonzero(refined.contact.touching) >= 0.9 * 64
-    assert refined.iterations > 3 + refined.contact.iterations  # all solves count
-    assert refined.contact_fraction == pytest.approx(found.contact_fraction, rel=0.03)
-
-
-def test_contact_too_small_for_the_finest_mesh_is_not_resolved(paper_scene: SceneMaker) -> None:
-    solution = steady.solve(paper_scene(1000.0, 0.02, numerics=Numerics(columns_max=512)))
-    assert solution.block.columns == 512
-    assert 1 <= np.count_nonzero(solution.contact.touching) < 0.9 * 64
-    assert not solution.resolved
-
-
-def test_coarsest_mesh_asked_for_is_kept(paper_scene: SceneMaker) -> None:
-    assert steady.solve(paper_scene(1e4, 5.0, numerics=Numerics(columns_min=1024))).block.columns == 1024
-
-
-@PLANES
-def test_contact_does_not_depend_on_how_the_mesh_was_found(paper_scene: SceneMaker, plane: str) -> None:
-    found = steady.solve(paper_scene(1e4, 5.0, plane=plane))
-    columns = found.block.columns
-    asked = steady.solve(paper_scene(1e4, 5.0, plane=plane, numerics=Numerics(columns_min=columns, contact_nodes=16)))
-    assert asked.block.columns == columns
-    largest = found.contact.pressure.max()
-    np.testing.assert_allclose(asked.contact.pressure, found.contact.pressure, atol=1e-9 * largest)
-
-
-def test_same_scene_gives_the_same_bits(paper_scene: SceneMaker) -> None:
-    one, two = (steady.solve(paper_scene(1000.0, 0.5)) for _ in range(2))
-    np.testing.assert_array_equal(one.contact.pressure, two.contact.pressure)
-    np.testing.assert_array_equal(one.surface, two.surface)
-
-
-def test_frequencies_are_the_harmonics_of_the_road_at_speed(paper_scene: SceneMaker) -> None:
-    solution = steady.solve(paper_scene(1000.0, 5.0))
-    np.testing.assert_allclose(solution.frequencies, 35000.0 * np.arange(1, solution.block.columns // 2 + 1))
-
-
-@PLANES
-def test_contact_fills_continuously(paper_scene: SceneMaker, plane: str) -> None:
-    scene = paper_scene(10.0, 5.0, plane=plane)
-    filled = reference.full_contact_pressure(scene.material, scene.road, 10.0, scene.height, plane)
-    below, above = (steady.solve(paper_scene(10.0, share * filled, plane=plane)) for share in (0.99, 1.01))
-    assert 0.85 < below.contact_fraction < 1.0
-    assert below.iterations > 0
-    assert above.contact_fraction == 1.0
-    np.testing.assert_allclose(below.contact.pressure, above.contact.pressure, atol=0.05 * filled)
-
-
-def test_scene_that_does_not_converge_raises_with_its_name(
-    paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(contact_module, "MOST_STEPS", 1)
-    with pytest.raises(NotConverged, match=r"^scale1_v10000_p5_aspect0\.75_strain: not converged after 1 steps"):
-        steady.solve(paper_scene(1e4, 5.0))
+    ours, theirs = steady.solve(scene), solve_small(scene, Decision("small", 0.0, ""))
+    np.testing.assert_array_equal(ours.contact.pressure, theirs.contact.pressure)

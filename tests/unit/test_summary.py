@@ -16,8 +16,15 @@ VALUES: dict[str, Any] = {
     "friction_coefficient_contact": 0.123444,
     "energy_closure": 9.72e-05,
     "contact_fraction": 0.45678,
-    "maximum_contact_pressure": 12.3456,
+    "maximum_contact_pressure": 11.2222,
+    "maximum_local_contact_pressure": 12.3456,
     "nominal_compression": 0.08888,
+    "pressed_energy_density": 0.02222,
+    "finite_strain": 0,
+    "finite_strain_correction": 0.00345,
+    "branches_relaxed": 1,
+    "branches_frozen": 2,
+    "folding_bound": 1.1e-05,
     "effective_poissons_ratio": 0.31234,
     "shear_wave_speed_ratio": 0.01234,
     "excitation_frequency": 3500.0,
@@ -25,6 +32,7 @@ VALUES: dict[str, Any] = {
     "rows": 21,
     "contact_nodes": 64,
     "iterations": 17,
+    "krylov_iterations": 0,
     "wall_time": 0.0425,
 }
 ATTRIBUTES: dict[str, Any] = {
@@ -36,7 +44,9 @@ ATTRIBUTES: dict[str, Any] = {
     "pressure": 0.5,
     "aspect": 0.75,
     "plane": "stress",
-    "kinematics": "small strain",
+    "kinematics": "auto",
+    "kinematics_used": "small",
+    "kinematics_reason": "small strain is accurate enough",
     "warnings": "",
 }
 
@@ -67,12 +77,22 @@ def test_first_line_tells_the_scene_with_units(result: xr.Dataset) -> None:
         ("speed over shear-wave speed", "0.012"),
         ("mesh", "360 x 21 cells, 64 nodes in contact"),
         ("solved in", "42 ms, 17 contact steps"),
+        ("kinematics", "small strain is accurate enough"),
     ],
 )
 def test_each_number_has_its_line(result: xr.Dataset, label: str, value: str) -> None:
     lines = [line for line in summary(result).splitlines() if line.strip().startswith(label)]
     assert len(lines) == 1
     assert lines[0].strip().removeprefix(label).strip() == value
+
+
+def test_finite_strain_is_named_with_its_effort(result: xr.Dataset) -> None:
+    result["finite_strain"], result["krylov_iterations"] = ((), 1), ((), 210)
+    result.attrs |= {"kinematics_used": "finite", "kinematics_reason": "finite strain was asked for"}
+    text = summary(result)
+    assert text.splitlines()[0].endswith(", plane stress, finite strain")
+    assert "42 ms, 17 Newton steps, 210 Krylov iterations" in text
+    assert text.splitlines()[-1] == f"{'kinematics':<34}finite strain was asked for"
 
 
 def test_values_stand_in_one_column(result: xr.Dataset) -> None:

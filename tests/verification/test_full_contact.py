@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from rubfric import reference
-from rubfric.energy import Energies, evaluate
+from rubfric.energy import evaluate
+from rubfric.routes import Energies
 from rubfric.scene import Numerics, Scene
-from rubfric.steady import SteadySolution, solve
+from rubfric.solution import SteadySolution
+from rubfric.steady import solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from rubfric.block import Block
 from rubfric.contact import solve_contact
-from rubfric.energy import Energies, evaluate
+from rubfric.energy import evaluate
 from rubfric.material import Material
 from rubfric.road import SineScale
+from rubfric.routes import Energies
 from rubfric.scene import Scene
 from rubfric.smallstrain import respond
 from rubfric.steady import solve

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from rubfric.energy import evaluate
 from rubfric.material import Material
 from rubfric.scene import Scene
-from rubfric.steady import SteadySolution, solve
+from rubfric.solution import SteadySolution
+from rubfric.steady import solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

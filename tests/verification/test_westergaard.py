@@ -10,7 +10,8 @@ import pytest
 from rubfric import reference
 from rubfric.material import Material
 from rubfric.scene import Numerics, Scene
-from rubfric.steady import SteadySolution, solve
+from rubfric.solution import SteadySolution
+from rubfric.steady import solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
