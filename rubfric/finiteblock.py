@@ -188,6 +188,14 @@ class FiniteBlock:
         answer += points.volume * volumetric
         return answer
 
+    def stress_power(self, fields: Fields, state: Stressed) -> Real:
+        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns)."""
+        unknowns = np.concatenate((state.deformation.gradient, fields.log_thickness))
+        rate: Complex = 1j * self.frequencies.astype(complex)
+        rate[-1] = 0.0  # the phase of the last harmonic is unknown
+        power: Real = np.sum(state.stress * self.convolve(rate, unknowns), axis=0)
+        return power
+
     def dilatation(self, volume: Real) -> Real:
         """Return the volume that dilatation acts through: its mean over each cell in plane strain."""
         return volume if self.block.plane == "stress" else np.broadcast_to(volume.mean(axis=0), volume.shape)

@@ -23,29 +23,19 @@ from rubfric.routes import Energies, output_stride, rows_to_nodes
 def evaluate_finite(solution: FiniteSolution) -> Energies:
     """Return the friction coefficient by three routes and the stored strain energy of a solved scene."""
     scene, block, finite = solution.scene, solution.block, solution.finite
-    state, correction = solution.correction.state, solution.correction
-    lost, stored = dissipated_and_stored(finite, state.deformation)
-    power = stress_power(finite, solution.fields.log_thickness, state.stress, state.deformation)
+    lost, stored = dissipated_and_stored(finite, solution.correction.state.deformation)
     force = scene.pressure * block.width
     stride = output_stride(block.columns, scene.numerics.output_columns)
     cells = (stored * finite.weights).sum(axis=(0, 2)) / (finite.weights.sum(axis=(0, 2)) * block.columns)
     return Energies(
-        stress_power=float((power * finite.weights).sum() / (scene.velocity * force)),
+        stress_power=solution.friction.stress_power,
         dissipation=float((lost * finite.weights).sum() / (scene.velocity * force)),
-        contact=float(np.mean(correction.contact.pressure * correction.slope) / scene.pressure),
+        contact=solution.friction.contact,
         depth_profile=rows_to_nodes(np.diff(block.row_positions), cells),
         density=nodal_density(finite, stored)[:, ::stride],
         displacement=np.ascontiguousarray(solution.fields.displacement.swapaxes(0, 1)[..., ::stride]),
+        resolution=solution.friction.resolution,
     )
-
-
-def stress_power(finite: FiniteBlock, log_thickness: Real, stress: Real, state: Deformation) -> Real:
-    """Return S : dE/dt, MPa/s, at the points, as P : dF/dt with the thickness's part; (points, rows, columns)."""
-    unknowns = np.concatenate((state.gradient, log_thickness))
-    rate: Complex = 1j * finite.frequencies.astype(complex)
-    rate[-1] = 0.0  # the phase of the last harmonic is unknown
-    power: Real = np.sum(stress * finite.convolve(rate, unknowns), axis=0)
-    return power
 
 
 def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real, Real]:

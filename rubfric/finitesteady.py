@@ -16,7 +16,9 @@ from rubfric.finiteblock import Fields, FiniteBlock
 from rubfric.folding import fold_scene
 from rubfric.homogeneous import pressed, stored_energy
 from rubfric.newton import Solved, Stalled
+from rubfric.prolongation import prolong
 from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
+from rubfric.routes import ROUND_OFF, disagreement
 from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 from rubfric.slidingcontact import Correction, Road, SlidingContact
 from rubfric.solution import Decision, SteadySolution
@@ -26,14 +28,30 @@ _COARSE_COLUMNS = 64
 _COARSE_GROWTH = 1.3
 _COARSE_NODES = 8
 # A mesh has at most this many times the columns of the one before.
-_REFINEMENT = 4
+_REFINEMENT = 6
 _COLUMN_STEP = 8
+# Two routes to friction that differ by more than this share of the accuracy ask for so many times the columns.
+_CLOSURE, _FINER = 0.7, 1.5
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
 _SHORTFALL = 0.1
 # Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
 _TOLERANCE = 1e-5
 # On a flat road displacements count by this share of a wavelength instead.
 _FLAT = 1e-8
+
+
+@dataclass(frozen=True)
+class Friction:
+    """The friction coefficient by stress power and by contact, and what the solver cannot tell from zero."""
+
+    stress_power: float
+    contact: float
+    resolution: float
+
+    @property
+    def disagreement(self) -> float:
+        """Difference of the two over the larger one."""
+        return disagreement((self.stress_power, self.contact), self.resolution)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +62,8 @@ class FiniteSolution(SteadySolution):
     ----------
     finite : FiniteBlock
         The block with its rubber, folded.
+    friction : Friction
+        The friction coefficient by two routes.
     fields : Fields
         Displacement and thickness.
     correction : Correction
@@ -51,6 +71,7 @@ class FiniteSolution(SteadySolution):
     """
 
     finite: FiniteBlock
+    friction: Friction
     fields: Fields
     correction: Correction
 
@@ -97,18 +118,17 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
     columns = _first_columns(scene)
     problem, flat = _meshed(scene, columns, max(numerics.row_growth, _COARSE_GROWTH))
     solved = reach(problem, flat, _road(scene), _TOLERANCE, history)
-    # The first mesh is coarse in depth also where it has all the columns that are needed.
-    final = False
-    while not final or (finer := _next_columns(scene, problem, solved)) > columns:
-        columns = finer if final else _next_columns(scene, problem, solved)
-        final = True
+    # The first mesh is coarse in depth, also where it has all the columns that are needed.
+    final = numerics.row_growth >= _COARSE_GROWTH
+    while (finer := _next_columns(scene, problem.finite, solved)) > columns or not final:
+        columns, final = finer, True
         before, (problem, flat) = problem, _meshed(scene, columns, numerics.row_growth)
-        guess = prolong(solved.fields, before.finite, problem.finite)
-        touching = _carry(solved.correction.contact.touching, columns)
+        start = Start(
+            prolong(solved.fields, before.finite, problem.finite), _carry(solved.correction.contact.touching, columns)
+        )
         try:
-            solved = attempt(
-                problem, Start(guess, touching), _road(scene), _TOLERANCE, history, f"{columns} columns, from coarser"
-            )
+            what = f"{columns} columns, from {before.finite.block.columns}"
+            solved = attempt(problem, start, _road(scene), _TOLERANCE, history, what)
         except Stalled:
             solved = reach(problem, flat, _road(scene), _TOLERANCE, history)
     contact = solved.correction.contact
@@ -125,8 +145,19 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
         resolved=bool(np.count_nonzero(contact.touching) >= wanted),
         history=tuple(history.lines),
         finite=problem.finite,
+        friction=_friction(scene, problem.finite, solved),
         fields=solved.fields,
         correction=solved.correction,
+    )
+
+
+def _friction(scene: Scene, finite: FiniteBlock, solved: Solved) -> Friction:
+    correction, block = solved.correction, finite.block
+    power = (finite.stress_power(solved.fields, correction.state) * finite.weights).sum()
+    return Friction(
+        stress_power=float(power / (scene.velocity * scene.pressure * block.width)),
+        contact=float(np.mean(correction.contact.pressure * correction.slope) / scene.pressure),
+        resolution=max(_TOLERANCE * scene.road.steepest_slope, ROUND_OFF),
     )
 
 
@@ -157,16 +188,16 @@ def _first_columns(scene: Scene) -> int:
     return _fit(scene, needed)
 
 
-def _next_columns(scene: Scene, problem: SlidingContact, solved: Solved) -> int:
+def _next_columns(scene: Scene, finite: FiniteBlock, solved: Solved) -> int:
     """Return the columns of the mesh to follow; no more than there are where the contact is resolved."""
-    numerics, columns = scene.numerics, problem.finite.block.columns
-    touching = np.count_nonzero(solved.correction.contact.touching)
-    if columns >= numerics.finite_columns_min and touching >= (1.0 - _SHORTFALL) * min(
-        numerics.finite_contact_nodes, columns
-    ):
-        return columns
-    needed = max(numerics.finite_columns_min, numerics.finite_contact_nodes * columns / touching)
-    return _fit(scene, min(needed, _REFINEMENT * columns))
+    numerics, columns = scene.numerics, finite.block.columns
+    touching = int(np.count_nonzero(solved.correction.contact.touching))
+    needed = float(numerics.finite_columns_min)
+    if touching < (1.0 - _SHORTFALL) * min(numerics.finite_contact_nodes, columns):
+        needed = max(needed, numerics.finite_contact_nodes * columns / touching)
+    elif _friction(scene, finite, solved).disagreement > _CLOSURE * numerics.accuracy:
+        needed = max(needed, _FINER * columns)
+    return max(columns, _fit(scene, min(needed, _REFINEMENT * columns)))
 
 
 def _fit(scene: Scene, columns: float) -> int:
@@ -177,48 +208,3 @@ def _fit(scene: Scene, columns: float) -> int:
 def _carry(touching: Flags, columns: int) -> Flags:
     """Return contact nodes on another number of columns."""
     return touching[np.arange(columns) * len(touching) // columns]
-
-
-def prolong(fields: Fields, old: FiniteBlock, new: FiniteBlock) -> Fields:
-    """Return fields of one mesh on another: by harmonics along the road, linearly over the height."""
-    return Fields(
-        _over_height(
-            _along_road(fields.displacement, new.block.columns, 0.0), old.block.row_positions, new.block.row_positions
-        ),
-        _between_points(fields.log_thickness, old, new),
-    )
-
-
-def _between_points(field: Real, old: FiniteBlock, new: FiniteBlock) -> Real:
-    """Return a field at the quadrature points of one mesh at those of another."""
-    # The points stand half a column to the right of the nodes.
-    shift = 0.5 / new.block.columns - 0.5 / old.block.columns
-    along = _along_road(field, new.block.columns, shift)
-    parts, columns = len(field), new.block.columns
-    stacked = along.swapaxes(1, 2).reshape(parts, old.block.rows * old.points, columns)
-    moved = _over_height(stacked, _point_heights(old), _point_heights(new))
-    return moved.reshape(parts, new.block.rows, new.points, columns).swapaxes(1, 2)
-
-
-def _point_heights(finite: FiniteBlock) -> Real:
-    """Return the heights of the quadrature points, mm, upwards."""
-    rows = finite.block.row_positions
-    share = finite.quadrature.shapes[:, 2:].sum(axis=1)
-    return (rows[:-1, None] + np.diff(rows)[:, None] * share).ravel()
-
-
-def _along_road(field: Real, columns: int, shift: float) -> Real:
-    """Return a periodic field on another number of columns, shifted by a share of the wavelength."""
-    before = field.shape[-1]
-    spectrum = np.fft.rfft(field, axis=-1)
-    spectrum[..., -1] = 0.0  # its phase is unknown
-    spectrum *= np.exp(2j * np.pi * shift * np.arange(before // 2 + 1))
-    answer: Real = np.fft.irfft(spectrum[..., : columns // 2 + 1], columns, axis=-1)
-    return answer * (columns / before)
-
-
-def _over_height(field: Real, old: Real, new: Real) -> Real:
-    """Return a field, rows last but one, at other heights."""
-    below = np.clip(np.searchsorted(old, new, side="right") - 1, 0, len(old) - 2)
-    share = ((new - old[below]) / (old[below + 1] - old[below]))[:, None]
-    return field[..., below, :] * (1.0 - share) + field[..., below + 1, :] * share

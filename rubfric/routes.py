@@ -8,7 +8,13 @@ import numpy as np
 
 from rubfric.arrays import Real
 
-_ROUND_OFF = 1e-11
+# Friction below this is the difference of forces that cancel, and round-off.
+ROUND_OFF = 1e-11
+
+
+def disagreement(routes: tuple[float, ...], resolution: float) -> float:
+    """Return the largest difference between routes to one number over the largest of them, or over ``resolution``."""
+    return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), resolution)
 
 
 @dataclass(frozen=True)
@@ -24,7 +30,9 @@ class Energies:
     density : ndarray, shape (rows + 1, m)
         Stored strain-energy density at the nodes of m evenly spread columns, MPa.
     displacement : ndarray, shape (rows + 1, 2, m)
-        Displacement of those nodes, mm, without the rigid offset.
+        Displacement of those nodes, mm.
+    resolution : float
+        Friction that the solver cannot tell from zero: in small strain round-off, in finite strain its tolerance.
     """
 
     stress_power: float
@@ -33,15 +41,12 @@ class Energies:
     depth_profile: Real
     density: Real
     displacement: Real
+    resolution: float = ROUND_OFF
 
     @property
     def closure(self) -> float:
-        """Largest difference between two routes over the largest of them.
-
-        Friction below 1e-11 counts as 1e-11: it is the difference of forces that cancel, and round-off.
-        """
-        routes = (self.stress_power, self.dissipation, self.contact)
-        return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), _ROUND_OFF)
+        """Largest difference between two routes over the largest of them, or over ``resolution`` if that is larger."""
+        return disagreement((self.stress_power, self.dissipation, self.contact), self.resolution)
 
 
 def rows_to_nodes(heights: Real, cells: Real) -> Real:

@@ -1,4 +1,4 @@
-"""The deformed block as an image of a field, repeated along the road."""
+"""The deformed block as a mesh with a field, repeated along the road."""
 
 from __future__ import annotations
 
@@ -13,27 +13,47 @@ from rubfric.errors import InvalidInput
 
 Array = NDArray[np.float64]
 
+# What ``deform`` needs of a result.
+VARIABLES = (
+    "mesh_node_x",
+    "mesh_node_y",
+    "displacement_x",
+    "displacement_y",
+    "strain_energy_density",
+    "finite_strain",
+)
+_FIELDS = VARIABLES[:-1]
+
 
 @dataclass(frozen=True)
 class DeformedBlock:
-    """Copies of the block side by side.
+    """Copies of the block side by side, without a seam.
 
     Attributes
     ----------
-    density : numpy.ndarray
-        Strain-energy density, MPa, at equidistant heights (rows, upwards) and abscissae (columns).
-    extent : tuple of float
-        Left, right, lower and upper edge of that image, mm.
-    outline : numpy.ndarray
-        Corners of the block, mm, from left to right along the lower face and back along the upper face.
-    lower_face : numpy.ndarray
-        Abscissae and heights of the lower face, mm, from left to right.
+    x, y : numpy.ndarray, shape (rows, columns)
+        Where the nodes are, mm, from the lower face upwards and from left to right.
+    density : numpy.ndarray, shape (rows, columns)
+        Strain-energy density at the nodes, MPa.
+    net : tuple of numpy.ndarray
+        Abscissae and heights, mm, shape (2, points), of lines that crossed as a square net in the block as it was
+        made, eight to a wavelength; none in small strain, where the picture leaves out part of the deformation.
     """
 
+    x: Array
+    y: Array
     density: Array
-    extent: tuple[float, float, float, float]
-    outline: Array
-    lower_face: Array
+    net: tuple[Array, ...]
+
+    @property
+    def lower_face(self) -> Array:
+        """Abscissae and heights of the lower face, mm, shape (2, columns)."""
+        return np.stack((self.x[0], self.y[0]))
+
+    @property
+    def upper_face(self) -> Array:
+        """Abscissae and heights of the upper face, mm, shape (2, columns)."""
+        return np.stack((self.x[-1], self.y[-1]))
 
 
 def wavelength(result: xr.Dataset) -> float:
@@ -42,55 +62,75 @@ def wavelength(result: xr.Dataset) -> float:
     return float(x.max() - x.min())
 
 
-def deform(result: xr.Dataset, left: float, right: float, heights: Array) -> DeformedBlock:
-    """Return the block deformed in height between two abscissae, without its mean compression.
+def is_finite(result: xr.Dataset) -> bool:
+    """Return whether a scene was solved in finite strain."""
+    return bool(result["finite_strain"])
 
-    The lower face is where the contact has it. Above it every row of nodes keeps its distance from the lower face in
-    the mean, whatever the load compresses the block by: small strain would turn a soft block under a high load inside
-    out. Horizontal displacements are left out, for contact at small strain is between the road and what was above it
-    before; with them a few hundredths of a wavelength of the flanks would seem to part from the road.
+
+def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
+    """Return the deformed block between two abscissae.
+
+    In finite strain every node is where its displacement takes it. In small strain the lower face is where the contact
+    has it, and above it every row of nodes keeps its distance from the lower face in the mean, whatever the load
+    compresses the block by: small strain would turn a soft block under a high load inside out. Horizontal displacements
+    are left out there too, for contact at small strain is between the road and what was above it before; with them a
+    few hundredths of a wavelength of the flanks would seem to part from the road.
 
     Parameters
     ----------
     result : xarray.Dataset
         As built by ``rubfric.dataset.build``.
     left, right : float
-        Abscissae that the copies must cover, mm.
-    heights : numpy.ndarray
-        Equidistant heights above the road's mean plane at which the field is wanted, mm.
+        Abscissae that the copies must cover at every height, mm.
     """
-    x, y, density = _columns(result)
-    width, step = wavelength(result), float(x[1] - x[0])
-    first = math.floor((left - float(x[0])) / width)
-    copies = np.arange(first, math.ceil((right - float(x[0])) / width))
-    image = np.stack([np.interp(heights, column, field) for column, field in zip(y.T, density.T, strict=True)], axis=1)
-    # A node stands in the middle of its pixel.
-    start, rise = float(x[0]) + first * width - 0.5 * step, 0.5 * float(heights[1] - heights[0])
-    abscissae = (x + width * copies[:, None]).ravel()
-    lower, upper = (np.stack((abscissae, np.tile(face, copies.size))) for face in (y[0], y[-1]))
-    return DeformedBlock(
-        density=np.tile(image, copies.size),
-        extent=(start, start + width * copies.size, float(heights[0]) - rise, float(heights[-1]) + rise),
-        outline=np.concatenate((lower, upper[:, ::-1]), axis=1).T,
-        lower_face=lower,
-    )
+    fields = _by_row_and_column(result)
+    width = wavelength(result)
+    x, y = _moved(fields, is_finite(result))
+    copies = np.arange(math.floor((left - x.max()) / width) - 1, math.ceil((right - x.min()) / width) + 2)
+    everywhere = _repeated(x, copies) + np.repeat(width * copies, x.shape[1])
+    seen = np.flatnonzero((everywhere.max(axis=0) >= left) & (everywhere.min(axis=0) <= right))
+    window = np.s_[:, seen[0] - 1 : seen[-1] + 2]
+    made = _repeated(fields["mesh_node_x"], copies) + np.repeat(width * copies, x.shape[1])
+    x, y = everywhere[window], _repeated(y, copies)[window]
+    net = _net(made[window][0], fields["mesh_node_y"][:, 0], x, y, width / 8.0) if is_finite(result) else ()
+    return DeformedBlock(x, y, _repeated(fields["strain_energy_density"], copies)[window], net)
 
 
-def _columns(result: xr.Dataset) -> tuple[Array, Array, Array]:
-    """Return the columns' abscissae, and the heights and the density of the nodes by row and column.
-
-    The last column of the mesh, which is the first one again, is left out.
-    """
+def _by_row_and_column(result: xr.Dataset) -> dict[str, Array]:
+    """Return the fields of the nodes by row and column, without the last column, which is the first one again."""
     x, y = result["mesh_node_x"].values, result["mesh_node_y"].values
     order = np.lexsort((x, y))
     columns = np.unique(x).size
     if columns < 3 or x.size % columns or not np.array_equal(x[order].reshape(-1, columns)[0], np.unique(x)):
         raise InvalidInput(f"the mesh of {x.size} nodes cannot be drawn, but must be made of rows and columns")
-    rows = {
-        name: result[name].values[order].reshape(-1, columns)[:, :-1]
-        for name in ("mesh_node_y", "displacement_y", "strain_energy_density")
-    }
-    moved = rows["displacement_y"]
-    mean = moved.mean(axis=1, keepdims=True)
-    height = rows["mesh_node_y"] + moved - (mean - mean[0])
-    return np.unique(x)[:-1], height, rows["strain_energy_density"]
+    return {name: result[name].values[order].reshape(-1, columns)[:, :-1] for name in _FIELDS}
+
+
+def _moved(fields: dict[str, Array], finite: bool) -> tuple[Array, Array]:
+    """Return where the nodes of one copy are drawn."""
+    lift = fields["displacement_y"]
+    if finite:
+        return fields["mesh_node_x"] + fields["displacement_x"], fields["mesh_node_y"] + lift
+    mean = lift.mean(axis=1, keepdims=True)
+    return fields["mesh_node_x"], fields["mesh_node_y"] + lift - (mean - mean[0])
+
+
+def _repeated(field: Array, copies: NDArray[np.int_]) -> Array:
+    return np.tile(field, copies.size)
+
+
+def _net(across: Array, up: Array, x: Array, y: Array, pitch: float) -> tuple[Array, ...]:
+    """Return lines that were upright and level at multiples of a pitch before nodes at ``across``, ``up`` moved."""
+    columns = pitch * np.arange(math.ceil(across[0] / pitch), math.floor(across[-1] / pitch) + 1)
+    rows = pitch * np.arange(1, math.ceil(up[-1] / pitch - 1e-6))
+    upright = zip(_between(across, x.T, columns), _between(across, y.T, columns), strict=True)
+    level = zip(_between(up, x, rows), _between(up, y, rows), strict=True)
+    return tuple(np.stack(line) for lines in (upright, level) for line in lines)
+
+
+def _between(places: Array, field: Array, wanted: Array) -> Array:
+    """Interpolate a field along its first axis."""
+    above = np.clip(np.searchsorted(places, wanted), 1, places.size - 1)
+    share = ((wanted - places[above - 1]) / (places[above] - places[above - 1]))[:, None]
+    interpolated: Array = (1.0 - share) * field[above - 1] + share * field[above]
+    return interpolated

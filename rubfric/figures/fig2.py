@@ -1,4 +1,4 @@
-"""Figure 2: strain-energy density of the nodes over the distance from the road."""
+"""Figure 2: strain-energy density of the nodes over the height in the block."""
 
 from __future__ import annotations
 
@@ -22,7 +22,13 @@ from rubfric.figures.selection import described
 
 Array = NDArray[np.float64]
 
-_VARIABLES = ("mesh_node_y", "strain_energy_density", "depth", "strain_energy_density_profile", "nominal_compression")
+_VARIABLES = (
+    "mesh_node_y",
+    "strain_energy_density",
+    "depth",
+    "strain_energy_density_profile",
+    "pressed_energy_density",
+)
 _STEADY: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (7, 3))}
 # The ordinate begins at this fraction of the steady value: single nodes are all but unstrained.
 _LOWEST = 0.1
@@ -30,7 +36,7 @@ _LOWEST = 0.1
 
 @style.applied()
 def draw(results: Sequence[xr.Dataset]) -> Figure:
-    """Draw the strain-energy density against the distance from the road, a line per speed and a panel per pressure.
+    """Draw the strain-energy density against the height in the block, a line per speed and a panel per pressure.
 
     Parameters
     ----------
@@ -41,8 +47,10 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     -------
     matplotlib.figure.Figure
         Thick lines are means over a wavelength; bands run from the smallest to the largest value of the nodes at a
-        distance, down to a tenth of the steady value at most. A long-dashed line marks that value, p²/(2M): the density
-        of a block pressed between flat plates, M being its relaxed modulus. Distances are those before deformation.
+        height, down to a tenth of the steady value at most. A long-dashed line marks that value: the density of the
+        relaxed block on a flat road under the load, which small and finite strain put a little apart. Far from the road
+        means come to lie on it in small strain, and above it in finite strain by the mean shear that friction causes.
+        Heights are those above the lower face of the undeformed block.
 
     Raises
     ------
@@ -56,53 +64,55 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
         scenes = [grid.results[pressure, speed] for speed in grid.speeds]
         for result, look in zip(scenes, looks, strict=True):
             _draw_scene(panel, result, look)
-        steady = 0.5 * pressure * float(scenes[0]["nominal_compression"])
-        panel.axhline(steady, gid="steady", zorder=2.5, **_STEADY)
-        _scale_density(panel, scenes, steady)
-    _scale_distance(axes[0], results)
+        levels = sorted({float(result["pressed_energy_density"]) for result in scenes})
+        for level in levels:
+            panel.axhline(level, gid="steady", zorder=2.5, **_STEADY)
+        _scale_density(panel, scenes, levels)
+    _scale_height(axes[0], results)
     panels.entitle(axes, [described(pressure=pressure) for pressure in grid.pressures])
-    panels.label(axes, "distance from the road (mm)", "strain-energy density (MPa)")
+    panels.label(axes, "height in the undeformed block (mm)", "strain-energy density (MPa)")
     handles: list[Artist] = [
         Line2D([], [], label=f"mean at {style.written(speed)} mm/s", **look)
         for speed, look in zip(grid.speeds, looks, strict=True)
     ]
     handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="range of the nodes")]
-    handles += [Line2D([], [], label="steady value p²/(2M)", **_STEADY)]
+    handles += [Line2D([], [], label="steady value on a flat road", **_STEADY)]
     panels.legend_above(figure, handles, None, 2 if len(axes) == 1 else 3)
     return figure
 
 
 def _draw_scene(panel: Axes, result: xr.Dataset, look: dict[str, Any]) -> None:
-    distance, low, high = _extremes(result)
+    height, low, high = _extremes(result)
     thin = {"color": look["color"], "linestyle": look["linestyle"], "linewidth": 0.5}
-    panel.fill_between(distance, low, high, facecolor=look["color"], alpha=0.08, linewidth=0.0, gid="range")
+    panel.fill_between(height, low, high, facecolor=look["color"], alpha=0.08, linewidth=0.0, gid="range")
     for edge in (low, high):
-        panel.plot(distance, edge, gid="edge", **thin)
+        panel.plot(height, edge, gid="edge", **thin)
     panel.plot(
         result["depth"].values, result["strain_energy_density_profile"].values, gid="mean", markevery=0.13, **look
     )
 
 
 def _extremes(result: xr.Dataset) -> tuple[Array, Array, Array]:
-    """Return the distances of the rows of nodes, and the smallest and largest density in each."""
-    distance, row = np.unique(result["mesh_node_y"].values, return_inverse=True)
+    """Return the heights of the rows of nodes, and the smallest and largest density in each."""
+    height, row = np.unique(result["mesh_node_y"].values, return_inverse=True)
     density = result["strain_energy_density"].values
-    low, high = np.full(distance.size, np.inf), np.full(distance.size, -np.inf)
+    low, high = np.full(height.size, np.inf), np.full(height.size, -np.inf)
     np.minimum.at(low, row, density)
     np.maximum.at(high, row, density)
-    return distance, low, high
+    return height, low, high
 
 
-def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: float) -> None:
+def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: Sequence[float]) -> None:
     density = np.concatenate([result["strain_energy_density"].values for result in scenes])
     positive = density[density > 0.0]
-    if positive.size == 0 or steady <= 0.0:
+    if positive.size == 0 or steady[0] <= 0.0:
         panel.set_ylim(0.0, 1.0)
         return
-    scale_decades(panel, max(float(positive.min()) / 1.3, _LOWEST * steady), 1.3 * max(float(positive.max()), steady))
+    low, high = max(float(positive.min()) / 1.3, _LOWEST * steady[0]), max(float(positive.max()), steady[-1])
+    scale_decades(panel, low, 1.3 * high)
 
 
-def _scale_distance(panel: Axes, results: Sequence[xr.Dataset]) -> None:
+def _scale_height(panel: Axes, results: Sequence[xr.Dataset]) -> None:
     panel.set_xlim(0.0, max(float(result["depth"].values.max()) for result in results))
     panel.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))

@@ -12,37 +12,31 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.path import Path
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from rubfric.figures import style
-from rubfric.figures.deformation import deform, wavelength
+from rubfric.figures import deformation, style
+from rubfric.figures.deformation import DeformedBlock, deform, is_finite, wavelength
+from rubfric.figures.note import note_below
 from rubfric.figures.panels import letter
 from rubfric.figures.scaling import tick_decades
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 
-_VARIABLES = (
-    "mesh_node_x",
-    "mesh_node_y",
-    "displacement_y",
-    "strain_energy_density",
-    "surface_x",
-    "road_height",
-    "contact_fraction",
-    "nominal_compression",
-)
+_VARIABLES = (*deformation.VARIABLES, "surface_x", "road_height", "contact_fraction", "nominal_compression")
 _MAP = "viridis"
 _ROAD: dict[str, Any] = {"facecolor": "0.93", "edgecolor": "0.6", "hatch": "//////", "linewidth": 0.0}
 _PLATE: dict[str, Any] = {"boxstyle": "square,pad=0.1", "facecolor": "0.93", "linewidth": 0.0}
-# The window in wavelengths: its width, its room below the road, and its height above the road's mean plane.
-_WIDTH, _BELOW, _ABOVE = 1.25, 0.11, 0.5
-# Heights at which the field is sampled: as fine as print shows.
-_SAMPLES = 320
+_NET: dict[str, Any] = {"color": "white", "linewidth": 0.3, "alpha": 0.6}
+# The window in wavelengths: its width, its room below the road and above the block, and its greatest height above the
+# road's mean plane, where all results are in small strain and where some are in finite strain.
+_WIDTH, _BELOW, _SKY, _LOW, _HIGH = 1.25, 0.11, 0.04, 0.5, 1.0
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.72, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
+# The length of the colour bar's label on one line, inches.
+_LABEL = 1.5
 # Sizes of type, in points.
 _SMALL, _SMALLEST = 6.0, 5.0
 
@@ -76,7 +70,7 @@ class _Sheet:
 
 @style.applied()
 def draw(results: Sequence[xr.Dataset]) -> Figure:
-    """Draw the lower part of the block and the road below it, a row per pressure and a column per speed.
+    """Draw the block and the road below it, a row per pressure and a column per speed.
 
     Parameters
     ----------
@@ -86,9 +80,10 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        The block repeats along the road and slides to the right. It is shown to half a wavelength above the road,
-        with its vertical displacements to scale but without its mean compression, which is told below the panels.
-        Each panel tells the share of the nominal area in contact.
+        The block repeats along the road and slides to the right. In finite strain it is drawn as it is deformed, with a
+        net of lines that were squares before, up to its upper face or to a wavelength above the road. In small strain
+        its vertical displacements are to scale, but without its mean compression, which is told below the panels; half
+        a wavelength above the road is shown then. Each panel tells the share of the nominal area in contact.
 
     Raises
     ------
@@ -96,29 +91,44 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
         Where the results do not fill a grid of pressures and speeds, or lack something.
     """
     grid = by_pressure_and_speed(results, _VARIABLES)
-    window = _window(results[0])
+    places = list(product(grid.pressures, grid.speeds))
+    left, right = _stretch(results[0])
+    blocks = [deform(grid.results[place], left, right) for place in places]
+    window = _window(results, blocks)
     norm = _colour_scale(results)
-    sheet = _sheet(grid, window)
+    sheet = _sheet(grid, window, whole=_highest(blocks) < window.top)
     figure, axes = _arrange(grid, window, sheet)
-    for place, (panel, (pressure, speed)) in enumerate(zip(axes, product(grid.pressures, grid.speeds), strict=True)):
-        result = grid.results[pressure, speed]
-        _draw_scene(panel, result, window, norm)
-        _inscribe(panel, place, float(result["contact_fraction"]), window, sheet)
+    letters = [letter(number) + " " for number in range(len(places))] if len(places) > 1 else [""]
+    for panel, place, block, mark in zip(axes, places, blocks, letters, strict=True):
+        _draw_block(panel, block, norm)
+        _draw_road(panel, grid.results[place], window)
+        _inscribe(panel, mark, float(grid.results[place]["contact_fraction"]), window, sheet)
     _label(figure, axes, grid, sheet)
     _colour_bar(figure, norm, sheet)
     return figure
 
 
-def _window(result: xr.Dataset) -> _Window:
-    """Return one and a quarter wavelengths about a crest."""
-    road = result["road_height"].values
-    width = wavelength(result)
-    crest = float(result["surface_x"].values[np.argmax(road)])
+def _stretch(result: xr.Dataset) -> tuple[float, float]:
+    """Return the ends of one and a quarter wavelengths about a crest, mm."""
+    crest = float(result["surface_x"].values[np.argmax(result["road_height"].values)])
+    half = 0.5 * _WIDTH * wavelength(result)
+    return crest - half, crest + half
+
+
+def _highest(blocks: Sequence[DeformedBlock]) -> float:
+    return max(float(block.y.max()) for block in blocks)
+
+
+def _window(results: Sequence[xr.Dataset], blocks: Sequence[DeformedBlock]) -> _Window:
+    """Return the part of the road and the block that is seen."""
+    left, right = _stretch(results[0])
+    width = wavelength(results[0])
+    ceiling = _HIGH if any(map(is_finite, results)) else _LOW
     return _Window(
-        left=crest - 0.5 * _WIDTH * width,
-        right=crest + 0.5 * _WIDTH * width,
-        bottom=float(road.min()) - _BELOW * width,
-        top=_ABOVE * width,
+        left=left,
+        right=right,
+        bottom=float(results[0]["road_height"].values.min()) - _BELOW * width,
+        top=min(ceiling * width, _highest(blocks) + _SKY * width),
     )
 
 
@@ -132,13 +142,14 @@ def _colour_scale(results: Sequence[xr.Dataset]) -> LogNorm:
     return LogNorm(min(low, 0.5 * high), high, clip=True)
 
 
-def _sheet(grid: SceneGrid, window: _Window) -> _Sheet:
+def _sheet(grid: SceneGrid, window: _Window, whole: bool) -> _Sheet:
     """Give panels the window's proportions, so that no paper is left empty around them."""
     rows, columns = len(grid.pressures), len(grid.speeds)
     panel_width = min((style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns, _WIDEST)
     panel_height = panel_width * window.proportion
     width = _LEFT + _RIGHT + columns * panel_width + (columns - 1) * _GAP
-    note = textwrap.wrap(_note(grid, panel_width < _NARROW), int(19.0 * (width - _LEFT)))
+    words = note_below(grid, whole, shares=panel_width < _NARROW)
+    note = textwrap.wrap(words, int(19.0 * (width - _LEFT)))
     bottom = _BOTTOM + _NOTE_LINE * len(note)
     height = _TOP + bottom + rows * panel_height + (rows - 1) * _GAP
     return _Sheet(width, height, panel_width, panel_height, bottom, "\n".join(note))
@@ -167,28 +178,29 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
     return figure, list(panels.flat)
 
 
-def _draw_scene(panel: Axes, result: xr.Dataset, window: _Window, norm: LogNorm) -> None:
-    block = deform(result, window.left, window.right, np.linspace(window.bottom, window.top, _SAMPLES))
-    # Without a strain there is no colour on a logarithmic scale.
+def _draw_block(panel: Axes, block: DeformedBlock, norm: LogNorm) -> None:
+    # Without a strain there is no colour on a logarithmic scale. A PDF with every cell in it would be large.
     density = np.maximum(block.density, np.finfo(np.float64).tiny)
-    image = panel.imshow(
-        density, cmap=_MAP, norm=norm, origin="lower", extent=block.extent, aspect="auto", interpolation="bilinear"
-    )
-    image.set_clip_path(Path(block.outline), panel.transData)
-    panel.plot(*block.lower_face, color="black", linewidth=0.6)
+    panel.pcolormesh(block.x, block.y, density, cmap=_MAP, norm=norm, shading="gouraud", rasterized=True, zorder=0.5)
+    panel.add_collection(LineCollection([line.T for line in block.net], zorder=0.6, **_NET), autolim=False)
+    for face, name in ((block.lower_face, "lower face"), (block.upper_face, "upper face")):
+        panel.plot(*face, color="black", linewidth=0.6, gid=name)
+
+
+def _draw_road(panel: Axes, result: xr.Dataset, window: _Window) -> None:
     x = np.linspace(window.left, window.right, 400)
     road = np.interp(x, result["surface_x"].values, result["road_height"].values, period=wavelength(result))
     panel.fill_between(x, window.bottom, road, **_ROAD)
-    panel.plot(x, road, color="black", linewidth=0.4)
+    panel.plot(x, road, color="black", linewidth=0.4, gid="road")
 
 
-def _inscribe(panel: Axes, place: int, contact: float, window: _Window, sheet: _Sheet) -> None:
+def _inscribe(panel: Axes, mark: str, contact: float, window: _Window, sheet: _Sheet) -> None:
     """Write the panel's letter and the share in contact into the solid below the road."""
     word = "" if sheet.panel_width < _NARROW else "contact "
     solid = _BELOW / _WIDTH
     size = min(_SMALL, max(_SMALLEST, 50.0 * solid * sheet.panel_width))
     middle = window.bottom + 0.45 * solid * (window.right - window.left)
-    text = f"{letter(place)} {word}{100.0 * contact:.0f} %"
+    text = f"{mark}{word}{100.0 * contact:.0f} %"
     panel.text(0.5 * (window.left + window.right), middle, text, fontsize=size, ha="center", va="center", bbox=_PLATE)
 
 
@@ -212,19 +224,5 @@ def _colour_bar(figure: Figure, norm: LogNorm, sheet: _Sheet) -> None:
     left, high = sheet.width - _RIGHT + 0.08, sheet.height - sheet.bottom - _TOP
     place = (left / sheet.width, sheet.bottom / sheet.height, 0.09 / sheet.width, high / sheet.height)
     bar = figure.colorbar(ScalarMappable(norm, _MAP), cax=figure.add_axes(place), extend="min")
-    bar.set_label("strain-energy density (MPa)")
+    bar.set_label("strain-energy density (MPa)" if high > _LABEL else "strain-energy\ndensity (MPa)")
     tick_decades(bar.ax.yaxis, *bar.ax.get_ylim())
-
-
-def _note(grid: SceneGrid, narrow: bool) -> str:
-    """Return what a reader has to know about the picture of the block."""
-    strains = [float(grid.results[pressure, grid.speeds[0]]["nominal_compression"]) for pressure in grid.pressures]
-    listed = ", ".join(
-        f"{100.0 * strain:.2g} % at {style.written(pressure)} MPa"
-        for strain, pressure in zip(strains, grid.pressures, strict=True)
-    )
-    shares = " Percentages: share of the nominal area in contact." if narrow else ""
-    return (
-        "Lower part of the block, which slides to the right. Its vertical displacements are to scale, "
-        f"but without the mean compression of the block ({listed}).{shares}"
-    )
