@@ -80,7 +80,9 @@ def test_friction_is_second_order_in_columns(paper_scene: SceneMaker, plane: str
             paper_scene,
             plane,
             # The first row stays a thousandth of the wavelength, and all rows thin.
-            Numerics(columns_min=count, columns_max=count, row_growth=1.001, first_row=count / 1000.0),
+            Numerics(
+                columns_min=count, finite_columns_min=8, columns_max=count, row_growth=1.001, first_row=count / 1000.0
+            ),
         )
         for count in columns
     ]

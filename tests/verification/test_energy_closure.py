@@ -60,7 +60,7 @@ def test_routes_of_a_filled_road_agree_to_round_off(paper_scene: SceneMaker, pla
 
 @PLANES
 def test_closure_tells_a_coarse_mesh(paper_scene: SceneMaker, plane: str) -> None:
-    coarse = Numerics(columns_min=16, columns_max=16, output_columns=16)
+    coarse = Numerics(columns_min=16, finite_columns_min=16, columns_max=16, output_columns=16)
     solution = solve(paper_scene(1000.0, 5.0, plane=plane, numerics=coarse))
     assert not solution.resolved
     assert evaluate(solution).closure > 0.01
