@@ -185,11 +185,13 @@ def pivot(surface: Surface, profile: Real, nominal: float, start: Flags, label: 
 
 def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
     """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
-    nodes = len(profile)
-    sides = np.column_stack((profile[inside], np.ones(len(inside))))
-    held, unit = np.linalg.solve(surface.matrix(inside), sides).T
-    # Pressures follow the road and the offset; the offset follows from the load.
-    offset = (held.sum() - nominal * nodes) / unit.sum()
-    pressure = np.zeros(nodes)
-    pressure[inside] = held - offset * unit
-    return pressure, float(offset)
+    count = len(inside)
+    # The load stands in the system: where all nodes touch, pressures alone would be unknown by a constant.
+    system = np.zeros((count + 1, count + 1))
+    system[:count, :count] = surface.matrix(inside)
+    unit = float(np.abs(system.diagonal()).max())
+    system[:count, count] = system[count, :count] = unit
+    held = np.linalg.solve(system, np.append(profile[inside], unit * nominal * len(profile)))
+    pressure = np.zeros_like(profile)
+    pressure[inside] = held[:count]
+    return pressure, float(unit * held[count])
