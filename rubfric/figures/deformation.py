@@ -23,6 +23,8 @@ VARIABLES = (
     "finite_strain",
 )
 _FIELDS = VARIABLES[:-1]
+# Width of the squares of the net, in wavelengths.
+_PITCH = 0.125
 
 
 @dataclass(frozen=True)
@@ -84,16 +86,17 @@ def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
         Abscissae that the copies must cover at every height, mm.
     """
     fields = _by_row_and_column(result)
-    width = wavelength(result)
-    x, y = _moved(fields, is_finite(result))
+    width, finite = wavelength(result), is_finite(result)
+    x, y = _moved(fields, finite)
     copies = np.arange(math.floor((left - x.max()) / width) - 1, math.ceil((right - x.min()) / width) + 2)
-    everywhere = _repeated(x, copies) + np.repeat(width * copies, x.shape[1])
-    seen = np.flatnonzero((everywhere.max(axis=0) >= left) & (everywhere.min(axis=0) <= right))
+    ahead = np.repeat(width * copies, x.shape[1])
+    x, y, made = (np.tile(field, copies.size) for field in (x, y, fields["mesh_node_x"]))
+    x, made = x + ahead, made + ahead
+    seen = np.flatnonzero((x.max(axis=0) >= left) & (x.min(axis=0) <= right))
     window = np.s_[:, seen[0] - 1 : seen[-1] + 2]
-    made = _repeated(fields["mesh_node_x"], copies) + np.repeat(width * copies, x.shape[1])
-    x, y = everywhere[window], _repeated(y, copies)[window]
-    net = _net(made[window][0], fields["mesh_node_y"][:, 0], x, y, width / 8.0) if is_finite(result) else ()
-    return DeformedBlock(x, y, _repeated(fields["strain_energy_density"], copies)[window], net)
+    density = np.tile(fields["strain_energy_density"], copies.size)[window]
+    x, y, across, up = x[window], y[window], made[window][0], fields["mesh_node_y"][:, 0]
+    return DeformedBlock(x, y, density, _net(across, up, x, y, _PITCH * width) if finite else ())
 
 
 def _by_row_and_column(result: xr.Dataset) -> dict[str, Array]:
@@ -113,10 +116,6 @@ def _moved(fields: dict[str, Array], finite: bool) -> tuple[Array, Array]:
         return fields["mesh_node_x"] + fields["displacement_x"], fields["mesh_node_y"] + lift
     mean = lift.mean(axis=1, keepdims=True)
     return fields["mesh_node_x"], fields["mesh_node_y"] + lift - (mean - mean[0])
-
-
-def _repeated(field: Array, copies: NDArray[np.int_]) -> Array:
-    return np.tile(field, copies.size)
 
 
 def _net(across: Array, up: Array, x: Array, y: Array, pitch: float) -> tuple[Array, ...]:

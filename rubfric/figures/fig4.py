@@ -15,7 +15,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
 
 from rubfric.figures import deformation, style
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, wavelength
@@ -33,10 +33,10 @@ _NET: dict[str, Any] = {"color": "white", "linewidth": 0.3, "alpha": 0.6}
 # road's mean plane, where all results are in small strain and where some are in finite strain.
 _WIDTH, _BELOW, _SKY, _LOW, _HIGH = 1.25, 0.11, 0.04, 0.5, 1.0
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
-_LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.72, 0.22, 0.42, 0.105
+_LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.76, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
-# The length of the colour bar's label on one line, inches.
-_LABEL = 1.5
+# The length of the colour bar's label on one line, in inches, and how many ticks find room on an inch.
+_LABEL, _TICKS = 1.5, 9.0
 # Sizes of type, in points.
 _SMALL, _SMALLEST = 6.0, 5.0
 
@@ -201,7 +201,9 @@ def _inscribe(panel: Axes, mark: str, contact: float, window: _Window, sheet: _S
     size = min(_SMALL, max(_SMALLEST, 50.0 * solid * sheet.panel_width))
     middle = window.bottom + 0.45 * solid * (window.right - window.left)
     text = f"{mark}{word}{100.0 * contact:.0f} %"
-    panel.text(0.5 * (window.left + window.right), middle, text, fontsize=size, ha="center", va="center", bbox=_PLATE)
+    centre = 0.5 * (window.left + window.right)
+    # Below the frame, which the plate would break in small panels.
+    panel.text(centre, middle, text, fontsize=size, ha="center", va="center", bbox=_PLATE, zorder=2.2)
 
 
 def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet) -> None:
@@ -221,8 +223,14 @@ def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet)
 
 
 def _colour_bar(figure: Figure, norm: LogNorm, sheet: _Sheet) -> None:
-    left, high = sheet.width - _RIGHT + 0.08, sheet.height - sheet.bottom - _TOP
+    left, high = sheet.width - _RIGHT + 0.07, sheet.height - sheet.bottom - _TOP
     place = (left / sheet.width, sheet.bottom / sheet.height, 0.09 / sheet.width, high / sheet.height)
     bar = figure.colorbar(ScalarMappable(norm, _MAP), cax=figure.add_axes(place), extend="min")
-    bar.set_label("strain-energy density (MPa)" if high > _LABEL else "strain-energy\ndensity (MPa)")
-    tick_decades(bar.ax.yaxis, *bar.ax.get_ylim())
+    if high > _LABEL:
+        bar.set_label("strain-energy density (MPa)")
+    else:
+        bar.set_label("strain-energy\ndensity (MPa)", fontsize=_SMALL, labelpad=1.0)
+    lowest, highest = bar.ax.get_ylim()
+    tick_decades(bar.ax.yaxis, lowest, highest)
+    if 3.0 * np.log10(highest / lowest) > _TICKS * high:
+        bar.ax.yaxis.set_major_locator(LogLocator(10.0))

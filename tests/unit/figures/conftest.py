@@ -39,15 +39,27 @@ def make_campaign() -> CampaignMaker:
 
 @pytest.fixture(scope="session")
 def make_result() -> ResultMaker:
-    """Return a function that builds the result of a scene on a mesh of 16 by 5 cells."""
+    """Return a function that builds the result of a scene on a mesh of 16 by 5 cells, everywhere on the road.
 
-    def build(pressure: float = 1.0, speed: float = 10.0, scale: int = 1, aspect: float = 0.75) -> xr.Dataset:
+    In finite strain the block leans: its upper face stays, and its lower face lags by the shear times the height.
+    """
+
+    def build(
+        pressure: float = 1.0,
+        speed: float = 10.0,
+        scale: int = 1,
+        aspect: float = 0.75,
+        kinematics: str = "small",
+        shear: float = 0.5,
+    ) -> xr.Dataset:
+        finite = kinematics == "finite"
         width, amplitude, columns, rows = 0.2, 0.015, 16, 6
         x, depth = np.linspace(0.0, width, columns + 1), aspect * width * np.linspace(0.0, 1.0, rows) ** 2
         wavenumber = 2.0 * np.pi / width
         decay = np.exp(-wavenumber * depth)[:, None]
-        compression = 0.18 * pressure
-        lift = amplitude * np.sin(wavenumber * x) * decay - compression * depth[:, None]
+        compression = 0.18 * pressure / (1.0 + 0.18 * pressure if finite else 1.0)
+        lag = (shear if finite else 0.0) * (depth - depth[-1])[:, None] * np.ones_like(x)
+        lift = amplitude * np.sin(wavenumber * (x + lag)) * decay - compression * depth[:, None]
         steady = 0.5 * pressure * compression
         density = steady * (1.0 + (0.5 + 0.4 * np.sin(wavenumber * x)) * decay)
         surface = np.linspace(0.0, width, 32, endpoint=False)
@@ -55,15 +67,25 @@ def make_result() -> ResultMaker:
             {
                 "mesh_node_x": ("node", np.tile(x, rows)),
                 "mesh_node_y": ("node", np.repeat(depth, columns + 1)),
+                "displacement_x": ("node", lag.ravel()),
                 "displacement_y": ("node", lift.ravel()),
                 "strain_energy_density": ("node", density.ravel()),
                 "strain_energy_density_profile": ("depth", density[:, :-1].mean(axis=1)),
                 "road_height": ("surface_x", amplitude * np.sin(wavenumber * surface)),
                 "contact_fraction": 0.275,
                 "nominal_compression": compression,
+                "pressed_energy_density": steady,
+                "finite_strain": int(finite),
             },
             coords={"depth": depth, "surface_x": surface},
-            attrs={"scene": "made up", "pressure": pressure, "velocity": speed, "scale": scale, "aspect": aspect},
+            attrs={
+                "scene": "made up",
+                "pressure": pressure,
+                "velocity": speed,
+                "scale": scale,
+                "aspect": aspect,
+                "kinematics_used": kinematics,
+            },
         )
 
     return build

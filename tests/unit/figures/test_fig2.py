@@ -46,8 +46,19 @@ def test_steady_value_is_marked_where_the_profile_ends(make_result: Maker) -> No
     ((_, steady),) = lines(figure.axes[0], "steady")
     # p = 2 MPa, p / M = 0.36.
     np.testing.assert_allclose(steady, 0.36, rtol=1e-12)
+    assert steady[0] == make_result(2.0, aspect=3.0)["pressed_energy_density"]
     ((_, profile),) = lines(figure.axes[0], "mean")
     assert profile[-1] == pytest.approx(0.36, rel=1e-6)
+
+
+def test_steady_values_of_small_and_finite_strain_are_both_marked(make_result: Maker) -> None:
+    kinds = ("finite", "small", "small")
+    results = [make_result(5.0, speed, kinematics=kind) for speed, kind in zip((1.0, 10.0, 100.0), kinds, strict=True)]
+    panel = fig2.draw(results).axes[0]
+    levels = [float(level[0]) for _, level in lines(panel, "steady")]
+    assert levels == [float(results[place]["pressed_energy_density"]) for place in (0, 1)]
+    low, high = panel.get_ylim()
+    assert low < levels[0] < levels[1] < high
 
 
 def test_axes_hold_the_data_on_a_logarithmic_ordinate(results: list[xr.Dataset]) -> None:
@@ -69,14 +80,14 @@ def test_nearly_unstrained_nodes_do_not_stretch_the_ordinate(make_result: Maker)
 def test_figure_says_what_it_shows(results: list[xr.Dataset], words: Callable[..., list[str]]) -> None:
     said = words(fig2.draw(results))
     for text in (
-        "distance from the road (mm)",
+        "height in the undeformed block (mm)",
         "strain-energy density (MPa)",
         "(a) pressure 0.2 MPa",
         "(b) pressure 5 MPa",
         "mean at 1 mm/s",
         "mean at 10\N{NO-BREAK SPACE}000 mm/s",
         "range of the nodes",
-        "steady value p²/(2M)",
+        "steady value on a flat road",
     ):
         assert text in said
 
@@ -88,6 +99,6 @@ def test_result_without_a_profile_is_refused(make_result: Maker) -> None:
 
 def test_unstrained_block_is_drawn(make_result: Maker, tmp_path: Path) -> None:
     result = make_result()
-    for name in ("strain_energy_density", "strain_energy_density_profile", "nominal_compression"):
+    for name in ("strain_energy_density", "strain_energy_density_profile", "pressed_energy_density"):
         result[name] = 0.0 * result[name]
     style.save(fig2.draw([result]), tmp_path / "a.png")
