@@ -1,0 +1,128 @@
+"""The averaged block: a direct solver that is exact where the block is the same everywhere along the road."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from finite_fields import ELASTIC, PROPORTIONAL, RUBBER, WAVENUMBER, coarse, flat, random_step, uniform
+from numpy.typing import NDArray
+
+from rubfric.circulant import Circulant
+from rubfric.finiteblock import Fields, FiniteBlock
+from rubfric.material import Material
+from rubfric.smallstrain import respond
+
+Real = NDArray[np.float64]
+PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+RUBBERS = pytest.mark.parametrize("rubber", [RUBBER, PROPORTIONAL, ELASTIC], ids=["elastic bulk", "both", "elastic"])
+
+
+def averaged(finite: FiniteBlock, fields: Fields) -> Circulant:
+    return Circulant(finite, finite.stiffness(finite.stressed(fields)))
+
+
+def response(finite: FiniteBlock, fields: Fields, step: Fields) -> tuple[Real, Real]:
+    """Return the nodal forces and the thickness stresses of a small step about some fields."""
+    change = finite.stress_change(finite.stiffness(finite.stressed(fields)), step)
+    return finite.forces(change[:4]), change[4:]
+
+
+@PLANES
+@RUBBERS
+@pytest.mark.parametrize("columns", [16, 18])
+def test_step_of_a_pressed_and_sheared_block_is_found_exactly(
+    plane: str, rubber: Material, columns: int, rng: np.random.Generator
+) -> None:
+    finite = coarse(plane, rubber, columns)
+    fields, step = uniform(finite, 0.6, 0.3, 1.2), random_step(finite, rng)
+    circulant = averaged(finite, fields)
+    found = circulant.solve(circulant.load(*response(finite, fields, step)), np.zeros((2, columns)))
+    np.testing.assert_allclose(found.displacement, step.displacement, atol=1e-9 * np.abs(step.displacement).max())
+    np.testing.assert_allclose(found.log_thickness, step.log_thickness, atol=1e-9)
+
+
+@PLANES
+@RUBBERS
+def test_surface_is_that_of_the_solution(plane: str, rubber: Material, rng: np.random.Generator) -> None:
+    finite = coarse(plane, rubber)
+    fields = uniform(finite, 0.6, 0.3, 1.2).moved(random_step(finite, rng, 0.1))
+    circulant = averaged(finite, fields)
+    load = circulant.load(*response(finite, fields, random_step(finite, rng)))
+    solved = circulant.solve(load, np.zeros((2, finite.block.columns))).displacement[:, 0]
+    np.testing.assert_allclose(circulant.surface(load), solved, atol=1e-12 * np.abs(solved).max())
+
+
+@PLANES
+@RUBBERS
+def test_compliance_is_the_surface_under_forces_on_it(plane: str, rubber: Material, rng: np.random.Generator) -> None:
+    finite = coarse(plane, rubber)
+    circulant = averaged(finite, uniform(finite, 0.6, 0.3, 1.2))
+    rest = finite.at_rest()
+    nothing = circulant.load(rest.displacement, rest.log_thickness)
+    forces = rng.standard_normal((2, finite.block.columns))
+    surface = circulant.solve(nothing, forces).displacement[:, 0]
+    spectrum = np.einsum("abn,bn->an", circulant.compliance, np.fft.rfft(forces))
+    expected = np.fft.irfft(spectrum, finite.block.columns)
+    np.testing.assert_allclose(surface, expected, atol=1e-12 * np.abs(expected).max())
+
+
+@PLANES
+@RUBBERS
+def test_solutions_are_held_at_the_top_and_in_the_mean_at_the_road(
+    plane: str, rubber: Material, rng: np.random.Generator
+) -> None:
+    finite = coarse(plane, rubber)
+    circulant = averaged(finite, flat(finite, 2.0))
+    forces = rng.standard_normal(finite.at_rest().displacement.shape)
+    load = circulant.load(forces, np.zeros_like(finite.at_rest().log_thickness))
+    found = circulant.solve(load, rng.standard_normal((2, finite.block.columns))).displacement
+    largest = np.abs(found).max()
+    np.testing.assert_allclose(found[0, -1], 0.0, atol=1e-12 * largest)
+    assert abs(found[1, 0].mean()) <= 1e-12 * largest
+
+
+@PLANES
+@RUBBERS
+def test_compliance_at_rest_tends_to_that_of_small_strain(plane: str, rubber: Material) -> None:
+    errors = []
+    for columns in (16, 32, 64):
+        finite = coarse(plane, rubber, columns)
+        circulant = averaged(finite, finite.at_rest())
+        known = respond(finite.block, rubber, finite.velocity, np.arange(1, 4))
+        vertical = circulant.compliance[1, 1, 1:4] * finite.block.column_width
+        np.testing.assert_allclose(vertical, known.compliance, rtol=60.0 / columns**2)
+        sideways = circulant.compliance[0, 1, 1:4] / circulant.compliance[1, 1, 1:4]
+        np.testing.assert_allclose(sideways, -1j * known.shear_ratio, atol=60.0 / columns**2)
+        errors.append(np.abs(vertical[0] / known.compliance[0] - 1.0))
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.5)
+    assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.5)
+
+
+@PLANES
+def test_elastic_compliance_is_symmetric(plane: str) -> None:
+    # Betti: what a force at one node does to another, that one does to it.
+    finite = coarse(plane, ELASTIC)
+    compliance = averaged(finite, uniform(finite, 0.6, 0.3, 1.2)).compliance
+    kernel = np.fft.irfft(compliance, finite.block.columns)
+    mirrored = np.roll(kernel[..., ::-1], 1, axis=-1).swapaxes(0, 1)
+    np.testing.assert_allclose(kernel, mirrored, atol=1e-12 * np.abs(kernel).max())
+
+
+@PLANES
+def test_sliding_compliance_loses_energy(plane: str) -> None:
+    finite = coarse(plane, RUBBER)
+    compliance = averaged(finite, flat(finite, 2.0)).compliance[:, :, 1:-1].transpose(2, 0, 1)
+    lossy = (compliance - compliance.conj().swapaxes(1, 2)) / 2j
+    assert np.all(np.linalg.eigvalsh(lossy) < 0.0)
+
+
+@PLANES
+def test_rough_block_is_solved_nearly(plane: str, rng: np.random.Generator) -> None:
+    finite = coarse(plane, RUBBER)
+    fields = flat(finite, 2.0)
+    wave = 0.03 / WAVENUMBER * np.sin(WAVENUMBER * finite.block.column_positions)
+    fields.displacement[1] += wave * np.exp(-WAVENUMBER * finite.block.row_positions)[:, None]
+    circulant, step = averaged(finite, fields), random_step(finite, rng)
+    found = circulant.solve(circulant.load(*response(finite, fields, step)), np.zeros((2, finite.block.columns)))
+    missed = np.linalg.norm(found.displacement - step.displacement) / np.linalg.norm(step.displacement)
+    assert 1e-6 < missed < 0.3
