@@ -35,8 +35,8 @@ _WIDTH, _BELOW, _SKY, _LOW, _HIGH = 1.25, 0.11, 0.04, 0.5, 1.0
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.76, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
-# The length of the colour bar's label on one line, in inches, and how many ticks find room on an inch.
-_LABEL, _TICKS = 1.5, 9.0
+# The length of the colour bar's label on one line, and the least distance of its ticks, in inches.
+_LABEL, _APART = 1.5, 0.11
 # Sizes of type, in points.
 _SMALL, _SMALLEST = 6.0, 5.0
 
@@ -232,5 +232,12 @@ def _colour_bar(figure: Figure, norm: LogNorm, sheet: _Sheet) -> None:
         bar.set_label("strain-energy\ndensity (MPa)", fontsize=_SMALL, labelpad=1.0)
     lowest, highest = bar.ax.get_ylim()
     tick_decades(bar.ax.yaxis, lowest, highest)
-    if 3.0 * np.log10(highest / lowest) > _TICKS * high:
-        bar.ax.yaxis.set_major_locator(LogLocator(10.0))
+    if high < _LABEL:
+        bar.ax.yaxis.set_major_locator(LogLocator(10.0, subs=_ticks_in_decade(high / np.log10(highest / lowest))))
+
+
+def _ticks_in_decade(room: float) -> tuple[float, ...]:
+    """Return as many multiples of a power of ten as find room on a decade, inches."""
+    choices = ((1.0, 2.0, 3.0, 4.0, 6.0), (1.0, 2.0, 5.0))
+    roomy = (choice for choice in choices if np.diff(np.log10([*choice, 10.0])).min() * room > _APART)
+    return next(roomy, (1.0,))

@@ -93,13 +93,15 @@ def test_one_colour_scale_for_all_panels(results: list[xr.Dataset]) -> None:
     assert 0.0 < norm.vmin < np.median(density)
 
 
-def test_ticks_of_a_low_colour_bar_stand_apart(make_result: Maker) -> None:
-    results = [make_result(0.2, speed) for speed in (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)]
-    results[0]["strain_energy_density"] *= 100.0
+@pytest.mark.parametrize("factor", [1.0, 100.0])
+def test_ticks_of_a_low_colour_bar_stand_apart(make_result: Maker, factor: float) -> None:
+    results = [make_result(5.0, speed) for speed in (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)]
+    results[0]["strain_energy_density"] *= factor
     figure = fig4.draw(results)
     figure.draw_without_rendering()
-    labels = figure.axes[-1].get_yticklabels()
-    boxes = [label.get_window_extent() for label in labels if label.get_text()]
+    bar = figure.axes[-1]
+    low, high = bar.get_ylim()
+    boxes = [label.get_window_extent() for label in bar.get_yticklabels() if low <= label.get_position()[1] <= high]
     assert len(boxes) >= 2
     assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
 
