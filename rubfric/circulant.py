@@ -4,8 +4,8 @@ Averaged along the road, the tangent of a deformed block is block circulant: one
 with the complex moduli of its frequency. It is exact for a block pressed on a flat road, and close enough for
 one on a rough road that a handful of Krylov iterations make up the difference.
 
-Harmonics are those of the real Fourier transform, 0 to columns / 2. The block is held at the top (no u_x) and, in
-the mean only, at the road (no u_y): what it rises by follows from the load.
+Harmonics are those of the real Fourier transform, 0 to columns / 2. The mean displacement of the surface is held:
+what the block rises by follows from the load, and where along the road it is does not matter in steady sliding.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from scipy import fft
 from scipy.linalg import lapack
 
-from rubfric.arrays import Complex, Real, Whole
+from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.finiteblock import Fields, FiniteBlock, Stiffness
 
 # Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
@@ -25,18 +25,21 @@ _BAND = 3
 
 @dataclass(frozen=True)
 class Load:
-    """Forces in harmonic space, the thickness eliminated.
+    """What the block answers to, in harmonic space, thickness and volume eliminated.
 
     Attributes
     ----------
     force : ndarray of complex, shape (2, rows + 1, n)
         N per mm of thickness.
     thickness : ndarray of complex, shape (1 or 0, points, rows, n)
-        Logarithm of the thickness stretch that they would cause in a held block.
+        Logarithm of the thickness stretch that the load causes in a held block.
+    volume : ndarray of complex, shape (points or 1, rows, n)
+        Volume ratio by which volume and deformation shall differ.
     """
 
     force: Complex
     thickness: Complex
+    volume: Complex
 
 
 class Circulant:
@@ -47,6 +50,8 @@ class Circulant:
     finite : FiniteBlock
     stiffness : Stiffness
         The tangent to average along the road.
+    pressure : float
+        Nominal pressure, MPa. Where the surface turns, the pressure of the road turns with it.
 
     Attributes
     ----------
@@ -59,49 +64,56 @@ class Circulant:
         Where the averaged stiffness is singular.
     """
 
-    def __init__(self, finite: FiniteBlock, stiffness: Stiffness) -> None:
+    def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
-        block = finite.block
-        self._harmonics = len(block.harmonics)
-        moduli, volume = _moduli(finite, stiffness)
-        gradient = _gradient(finite)
-        weights = finite.weights
+        self._harmonics = len(finite.block.harmonics)
+        gradient, weights = _gradient(finite), finite.weights
+        volume = stiffness.points.volume.mean(axis=-1)[..., None]
+        bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
+        moduli = _moduli(finite, stiffness)
+        # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
+        self._dilatation = finite.dilatation((volume[:4, None] * gradient).sum(axis=0).swapaxes(0, 1)).swapaxes(0, 1)
+        cells = np.zeros((4, 4, *gradient.shape[3:]), dtype=complex)
         if finite.unknowns == 5:
+            moduli += volume[:, None] * volume * bulk
             give, take = moduli[:4, 4], moduli[4, :4]
             self._yield = 1.0 / moduli[4, 4]
-            # Forces of a free thickness, and the thickness that displacements cause.
-            self._thickness_force = _contract("iaprn,iprn->aprn", gradient.conj(), give * self._yield * weights)
+            self._swelling = volume[4] * bulk
+            self._volume_thickness = volume[4]
+            # The thickness that displacements cause, and the forces of a thickness that they do not.
             self._thickness = _contract("iprn,iaprn->aprn", take * self._yield, gradient)
+            self._thickness_force = _contract("iaprn,iprn->aprn", gradient.conj(), give * self._yield * weights)
             moduli = moduli[:4, :4] - give[:, None] * (take * self._yield)
-        stressed = _contract("ijprn,japrn->iaprn", moduli, gradient)
-        cells = _contract("iaprn,ibprn->abrn", gradient.conj() * weights, stressed)
-        if volume is not None:
-            dilatation, modulus = volume
-            mean = _contract("ipr,iaprn->arn", dilatation / finite.points, gradient)
+            self._volume_force = _contract("iaprn,iprn->aprn", gradient.conj(), volume[:4] * (bulk * weights))
+        else:
             area = weights.sum(axis=0)
-            cells += mean.conj()[:, None] * (mean * (modulus * area))
-        self._factors, self._pivots = self._factorise(cells)
+            self._volume_force = self._dilatation.conj() * (bulk * area)
+            cells += self._dilatation[:, 0] * self._volume_force[:, None, 0]
+        stressed = _contract("ijprn,japrn->iaprn", moduli, gradient)
+        cells += _contract("iaprn,ibprn->abrn", gradient.conj() * weights, stressed)
+        self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
-        self.compliance: Complex = np.stack(
-            [self._unit(component).transpose(2, 1, 0)[:, 0] for component in (0, 1)], axis=1
-        )
+        self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
         self.compliance[..., -1] = self.compliance[..., -1].real
+        self.compliance[0, :, 0] = self._surface[0, 0] = 0.0
 
-    def load(self, forces: Real, thickness_stress: Real) -> Load:
-        """Return the load of nodal forces, N per mm, and of stresses C_zz S_zz at the points, MPa."""
+    def load(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> Load:
+        """Return the load of nodal forces, N per mm, of stresses C_zz S_zz, MPa, and of an excess of volume."""
         force = fft.rfft(forces, axis=-1)
         thickness = fft.rfft(thickness_stress, axis=-1)
+        volume = fft.rfft(volume_excess, axis=-1)
+        pushed = (self._volume_force * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
-            pushed = (self._thickness_force * thickness[0]).sum(axis=1)  # (level and component, row, harmonic)
-            force[:, :-1] -= pushed[:2]
-            force[:, 1:] -= pushed[2:]
+            thickness[0] -= self._swelling * volume
+            pushed += (self._thickness_force * thickness[0]).sum(axis=1)
             thickness *= self._yield
-        return Load(force, thickness)
+        force[:, :-1] -= pushed[:2]
+        force[:, 1:] -= pushed[2:]
+        return Load(force, thickness, volume)
 
     def surface(self, load: Load) -> Real:
-        """Return u_x and u_y at the surface, mm, shape (2, columns), without the mean of u_y."""
-        force = load.force.transpose(2, 1, 0).reshape(self._harmonics, -1)
-        force = np.where(self._held(), 0.0, force)
+        """Return u_x and u_y at the surface, mm, shape (2, columns), without their means."""
+        force = np.where(self._held(), 0.0, load.force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = np.einsum("cnj,nj->cn", self._surface.reshape(2, self._harmonics, -1), force)
         answer: Real = fft.irfft(spectrum, self._finite.block.columns, axis=-1)
         return answer
@@ -112,12 +124,15 @@ class Circulant:
         force[:, 0] += fft.rfft(contact, axis=-1)
         ordered = np.where(self._held(), 0.0, force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = self._solve(ordered).transpose(2, 1, 0)
-        columns = self._finite.block.columns
+        spectrum[0, :, 0] -= spectrum[0, 0, 0]
+        corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
+        volume = load.volume + (self._dilatation * corners).sum(axis=0)
         thickness = load.thickness
         if len(thickness):
-            corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))
-            thickness = thickness - (self._thickness * corners[:, None]).sum(axis=0)
-        return Fields(fft.irfft(spectrum, columns, axis=-1), fft.irfft(thickness, columns, axis=-1))
+            thickness = thickness - (self._thickness * corners).sum(axis=0)
+            volume += self._volume_thickness * thickness[0]
+        columns = self._finite.block.columns
+        return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
@@ -128,20 +143,20 @@ class Circulant:
         return np.asarray(answer).reshape(self._harmonics, -1, 2)
 
     def _unit(self, component: int, transposed: bool = False) -> Complex:
-        """Return the response to a unit force at the surface, for all harmonics."""
+        """Return the response to a unit force at the surface, for all harmonics, (n, rows + 1, 2)."""
         right = np.zeros((self._harmonics, 2 * (self._finite.block.rows + 1)), dtype=complex)
         right[:, component] = 1.0
         right[self._held()] = 0.0
         return self._solve(right, transposed)
 
-    def _held(self) -> Real:
-        """Flag the unknowns that are held: u_x at the top, and the mean of u_y at the road."""
+    def _held(self) -> Flags:
+        """Flag the unknowns that are held: harmonics of u_x at the top, and the mean of u_y at the surface."""
         held = np.zeros((self._harmonics, 2 * (self._finite.block.rows + 1)), dtype=bool)
         held[:, -2] = True
         held[0, 1] = True
         return held
 
-    def _factorise(self, cells: Complex) -> tuple[Complex, Whole]:
+    def _factorise(self, cells: Complex, pressure: float) -> tuple[Complex, Whole]:
         """Assemble the cells, shape (4, 4, rows, n), to one banded matrix after another, and factorise them."""
         rows = cells.shape[2]
         size, middle = 2 * (rows + 1), 2 * _BAND
@@ -149,6 +164,9 @@ class Circulant:
         for a in range(4):
             for b in range(4):
                 band[middle + a - b, :, b : b + 2 * rows : 2] += cells[a, b].T
+        turning = 1j * pressure * np.sin(2.0 * np.pi / self._finite.block.columns * self._finite.block.harmonics)
+        band[middle - 1, :, 1] += turning
+        band[middle + 1, :, 0] -= turning
         for harmonics, held in ((slice(None), size - 2), (slice(0, 1), 1)):
             for other in range(max(0, held - _BAND), min(size, held + _BAND + 1)):
                 band[middle + held - other, harmonics, other] = 0.0
@@ -164,29 +182,19 @@ def _contract(subscripts: str, *operands: Complex | Real) -> Complex:
     return np.asarray(np.einsum(subscripts, *operands))
 
 
-def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> tuple[Complex, tuple[Real, Complex] | None]:
-    """Return the averaged moduli of all harmonics, MPa, (m, m, points, rows, n).
-
-    In plane strain dilatation acts by its mean over cells and comes apart: d ln-volume terms (4, points, rows), and
-    its modulus (rows, n).
-    """
+def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
+    """Return the averaged moduli of all harmonics at constant volume, MPa, (m, m, points, rows, n)."""
     points = stiffness.points
-    local, give, take, volume = (
-        part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse, points.volume)
-    )
+    local, give, take = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
     past = _contract("ijpr,jkpr->ikpr", give, take)
     moduli: Complex = local[..., None] - past[..., None] * finite.shear_kernel
-    curvature = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
-    if finite.unknowns == 5:
-        moduli += (volume[:, None] * volume)[..., None] * curvature
-        return moduli, None
-    return moduli, (volume, curvature[0])
+    return moduli
 
 
 def _gradient(finite: FiniteBlock) -> Complex:
     """Return the displacement gradient of harmonics, 1/mm, shape (4, 4, points, rows, n).
 
-    From u_x and u_y of the lower row of nodes, then of the upper one, to xx, xy, yx, yy.
+    From u_x and u_y of the lower row of nodes, then of the upper one, to xx, xy, yx, yy; the latter come first.
     """
     block = finite.block
     turn = np.exp(2j * np.pi / block.columns * block.harmonics)

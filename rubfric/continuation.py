@@ -154,5 +154,5 @@ def _follow(
 def _extrapolate(before: tuple[float, Fields], here: tuple[float, Fields], ahead: float) -> Fields:
     """Return the fields on the line through two solutions."""
     (first, old), (second, new) = before, here
-    back = Fields(new.displacement - old.displacement, new.log_thickness - old.log_thickness)
+    back = new.moved(old, -1.0)
     return new.moved(back, (ahead - second) / (second - first))

@@ -4,8 +4,9 @@ In the frame of the road every field is f(xi, Y) with xi = X + v t, and material
 the reference configuration. The past of a point is therefore the row of points upstream of it, and the branch
 tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency n k v.
 
-Fields on the mesh: displacement (2, rows + 1, columns), mm; logarithm of the stretch across the thickness at the
-quadrature points (1, points, rows, columns), or (0, points, rows, columns) in plane strain.
+The volume ratio is an unknown of its own, tied to the deformation by an equation of its own. Eliminated, it would
+make the tangent as stiff as the bulk modulus along directions that turn with the deformation; kept, it leaves
+Newton's method and Krylov iterations the same work for any Poisson's ratio up to 1/2.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from scipy import fft
 
 from rubfric.arrays import Complex, Real
 from rubfric.block import Block
-from rubfric.finitestrain import Deformation, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.finitestrain import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
 from rubfric.material import Material
 
 
@@ -31,14 +32,21 @@ class Fields:
         u_x and u_y at the nodes, mm.
     log_thickness : ndarray, shape (1 or 0, points, rows, columns)
         Logarithm of the stretch across the thickness at the quadrature points; without entries in plane strain.
+    volume : ndarray, shape (points, rows, columns) or (1, rows, columns)
+        Volume ratio that the pressure follows from: at the points in plane stress, of the cells in plane strain.
     """
 
     displacement: Real
     log_thickness: Real
+    volume: Real
 
     def moved(self, step: Fields, share: float = 1.0) -> Fields:
         """Return these fields plus a share of a step."""
-        return Fields(self.displacement + share * step.displacement, self.log_thickness + share * step.log_thickness)
+        return Fields(
+            self.displacement + share * step.displacement,
+            self.log_thickness + share * step.log_thickness,
+            self.volume + share * step.volume,
+        )
 
 
 @dataclass(frozen=True)
@@ -51,21 +59,24 @@ class Stressed:
         Shapes (..., points, rows, columns).
     driving : ndarray, shape (4, points, rows, columns)
         Q, MPa.
-    volumetric : ndarray, shape (points, rows, columns)
+    volumetric : ndarray, shape of ``Fields.volume``
         U', MPa.
     stress : ndarray, shape (4 or 5, points, rows, columns)
         First Piola-Kirchhoff stress and, in plane stress, C_zz S_zz, MPa.
+    volume_excess : ndarray, shape of ``Fields.volume``
+        Volume ratio less that of the deformation; zero in a solution.
     """
 
     deformation: Deformation
     driving: Real
     volumetric: Real
     stress: Real
+    volume_excess: Real
 
 
 @dataclass(frozen=True)
 class Stiffness:
-    """The tangent at all quadrature points; ``curvature`` is U'' of the volume that dilatation acts through, MPa."""
+    """The tangent at all quadrature points; ``curvature`` is U'', MPa, in the shape of ``Fields.volume``."""
 
     points: Tangent
     curvature: Real
@@ -120,6 +131,7 @@ class FiniteBlock:
         return Fields(
             np.zeros((2, block.rows + 1, block.columns)),
             np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
+            np.ones((self.points if block.plane == "stress" else 1, block.rows, block.columns)),
         )
 
     def gradient(self, displacement: Real) -> Real:
@@ -154,39 +166,39 @@ class FiniteBlock:
         Raises
         ------
         Inverted
-            Where a point is turned inside out.
+            Where a point is turned inside out, or its volume is not positive.
         """
+        if not fields.volume.min() > 0.0:
+            raise Inverted(f"smallest volume ratio is {fields.volume.min():.3g}")
         gradient = self.gradient(fields.displacement)
         gradient[0] += 1.0
         gradient[3] += 1.0
         state = deform(gradient, fields.log_thickness)
         driving = -self.convolve(self.shear_kernel, state.inverse)
         driving[[0, 1, 3]] += self.material.long_term_shear_modulus
-        volume = self.dilatation(state.volume)
-        volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, volume)
+        volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
         if self.bulk_relaxes:
-            volumetric = volumetric + self.convolve(self.bulk_kernel, volume)
-        return Stressed(state, driving, volumetric, stress(state, driving, volumetric))
+            volumetric = volumetric + self.convolve(self.bulk_kernel, fields.volume)
+        excess = fields.volume - self.dilatation(state.volume)
+        return Stressed(state, driving, volumetric, stress(state, driving, volumetric), excess)
 
-    def stiffness(self, state: Stressed) -> Stiffness:
+    def stiffness(self, fields: Fields, state: Stressed) -> Stiffness:
         """Return the tangent at the points of a state."""
-        volume = self.dilatation(state.deformation.volume)
-        _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, volume)
+        _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
         return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
 
-    def stress_change(self, stiffness: Stiffness, step: Fields) -> Real:
-        """Return the change of the stresses under a small step, MPa, shape (4 or 5, points, rows, columns)."""
+    def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
+        """Return the change of the stresses, MPa, and of the volume's excess under a small step."""
         points = stiffness.points
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
         driving = -self.convolve(self.shear_kernel, _apply(points.inverse, change))
-        volume = self.dilatation((points.volume * change).sum(axis=0))
-        volumetric = stiffness.curvature * volume
+        volumetric = stiffness.curvature * step.volume
         if self.bulk_relaxes:
-            volumetric = volumetric + self.convolve(self.bulk_kernel, volume)
+            volumetric = volumetric + self.convolve(self.bulk_kernel, step.volume)
         answer = _apply(points.local, change)
         answer += _apply(points.by_driving, driving)
         answer += points.volume * volumetric
-        return answer
+        return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
 
     def stress_power(self, fields: Fields, state: Stressed) -> Real:
         """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns)."""
@@ -197,8 +209,8 @@ class FiniteBlock:
         return power
 
     def dilatation(self, volume: Real) -> Real:
-        """Return the volume that dilatation acts through: its mean over each cell in plane strain."""
-        return volume if self.block.plane == "stress" else np.broadcast_to(volume.mean(axis=0), volume.shape)
+        """Return a volume ratio at the points as the pressure sees it: its mean over each cell in plane strain."""
+        return volume if self.block.plane == "stress" else volume.mean(axis=0, keepdims=True)
 
     def convolve(self, kernel: Complex, field: Real) -> Real:
         """Return the convolution along the road of a field with a kernel given by its harmonics."""

@@ -42,7 +42,7 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
     """Return the dissipation D, MPa/s, and the stored energy W, MPa, at the points, each (points, rows, columns)."""
     material = finite.material
     squared, inverse = state.isochoric_squared, state.inverse
-    volume = finite.dilatation(state.volume)
+    volume = np.broadcast_to(finite.dilatation(state.volume), state.volume.shape)
     stored = volumetric_energy(material.long_term_bulk_modulus, volume)
     stored = stored + 0.5 * material.long_term_shear_modulus * (_trace(squared) - 3.0)
     lost = np.zeros_like(stored)

@@ -175,6 +175,7 @@ def _meshed(scene: Scene, columns: int, growth: float) -> tuple[SlidingContact, 
     fields = finite.at_rest()
     fields.displacement[1] = (stretch - 1.0) * block.row_positions[:, None]
     fields.log_thickness[:] = math.log(thickness)
+    fields.volume[:] = stretch * thickness
     unit = max(road.amplitude, _FLAT * road.wavelength)
     problem = SlidingContact(finite, (unit, unit * road.wavenumber), scene.name)
     return problem, Start(fields, np.ones(columns, dtype=bool))

@@ -81,8 +81,8 @@ def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, 
         steps = len(residuals) - 1
         try:
             state = problem.finite.stressed(fields)
-            stiffness = problem.finite.stiffness(state)
-            circulant = Circulant(problem.finite, stiffness)
+            stiffness = problem.finite.stiffness(fields, state)
+            circulant = Circulant(problem.finite, stiffness, road.pressure)
             correction = problem.correct(circulant, fields, road, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
             raise Stalled(str(error), steps, residuals[-1]) from error

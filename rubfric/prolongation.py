@@ -15,24 +15,26 @@ def prolong(fields: Fields, old: FiniteBlock, new: FiniteBlock) -> Fields:
             _along_road(fields.displacement, new.block.columns, 0.0), old.block.row_positions, new.block.row_positions
         ),
         _between_points(fields.log_thickness, old, new),
+        _between_points(fields.volume[None], old, new)[0],
     )
 
 
 def _between_points(field: Real, old: FiniteBlock, new: FiniteBlock) -> Real:
-    """Return a field at the quadrature points of one mesh at those of another."""
+    """Return a field at the points of the cells of one mesh at those of another."""
     # The points stand half a column to the right of the nodes.
     shift = 0.5 / new.block.columns - 0.5 / old.block.columns
     along = _along_road(field, new.block.columns, shift)
     parts, columns = len(field), new.block.columns
-    stacked = along.swapaxes(1, 2).reshape(parts, old.block.rows * old.points, columns)
-    moved = _over_height(stacked, _point_heights(old), _point_heights(new))
-    return moved.reshape(parts, new.block.rows, new.points, columns).swapaxes(1, 2)
+    points = field.shape[1]
+    stacked = along.swapaxes(1, 2).reshape(parts, old.block.rows * points, columns)
+    moved = _over_height(stacked, _point_heights(old, points), _point_heights(new, points))
+    return moved.reshape(parts, new.block.rows, points, columns).swapaxes(1, 2)
 
 
-def _point_heights(finite: FiniteBlock) -> Real:
-    """Return the heights of the quadrature points, mm, upwards."""
+def _point_heights(finite: FiniteBlock, points: int) -> Real:
+    """Return the heights of the quadrature points, or of the one centre of each cell, mm, upwards."""
     rows = finite.block.row_positions
-    share = finite.quadrature.shapes[:, 2:].sum(axis=1)
+    share = finite.quadrature.shapes[:, 2:].sum(axis=1) if points > 1 else np.array([0.5])
     return (rows[:-1, None] + np.diff(rows)[:, None] * share).ravel()
 
 

@@ -21,6 +21,10 @@ from rubfric.contact import Contact, pivot
 from rubfric.finiteblock import Fields, FiniteBlock, Stiffness, Stressed
 
 
+# A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
+_VOLUME = 0.03
+
+
 @dataclass(frozen=True)
 class Road:
     """The road and the load on it, which continuation may vary: amplitude a, mm; wavenumber k, 1/mm; p, MPa."""
@@ -94,7 +98,7 @@ class SlidingContact:
     ----------
     finite : FiniteBlock
     scale : tuple of float
-        Displacement, mm, and logarithmic thickness that count as one in the measure of ``size``.
+        Displacement, mm, and relative change of thickness that count as one in the measure of ``size``.
     label : str
         Name that errors carry.
     """
@@ -102,7 +106,10 @@ class SlidingContact:
     def __init__(self, finite: FiniteBlock, scale: tuple[float, float], label: str) -> None:
         self.finite = finite
         self.label = label
-        self._scale = scale
+        self._scale = (*scale, _VOLUME * scale[1])
+        rest = finite.at_rest()
+        self._shapes = (rest.displacement.shape, rest.log_thickness.shape, rest.volume.shape)
+        self._ends = np.cumsum([rest.displacement.size, rest.log_thickness.size])
 
     def correct(self, circulant: Circulant, fields: Fields, road: Road, touching: Flags) -> Correction:
         """Return T(u) - u and the contact that goes with it.
@@ -119,7 +126,7 @@ class SlidingContact:
         state = finite.stressed(fields)
         forces = finite.forces(state.stress[:4])
         forces[1, -1] += road.pressure * width
-        load = circulant.load(-forces, -state.stress[4:])
+        load = circulant.load(-forces, -state.stress[4:], -state.volume_excess)
         free = circulant.surface(load)
         position = finite.block.column_positions + fields.displacement[0, 0]
         slope = road.slope(position)
@@ -131,22 +138,21 @@ class SlidingContact:
         return Correction(step, contact, position, slope, state)
 
     def size(self, step: Fields) -> float:
-        """Return the root mean square of a step, displacement over amplitude and thickness over slope."""
-        return float(np.linalg.norm(self.pack(step)) / np.sqrt(step.displacement.size + step.log_thickness.size))
+        """Return the root mean square of a step over its ``scale``."""
+        packed = self.pack(step)
+        return float(np.linalg.norm(packed) / np.sqrt(packed.size))
 
     def pack(self, step: Fields) -> Real:
         """Return a step as one dimensionless vector."""
-        length, thickness = self._scale
-        return np.concatenate((step.displacement.ravel() / length, step.log_thickness.ravel() / thickness))
+        length, strain, volume = self._scale
+        parts = (step.displacement / length, step.log_thickness / strain, step.volume / volume)
+        return np.concatenate([part.ravel() for part in parts])
 
     def unpack(self, vector: Real) -> Fields:
         """Return the step that ``pack`` made a vector of."""
-        length, thickness = self._scale
-        shape = self.finite.at_rest()
-        count = shape.displacement.size
+        parts = np.split(vector, self._ends)
         return Fields(
-            length * vector[:count].reshape(shape.displacement.shape),
-            thickness * vector[count:].reshape(shape.log_thickness.shape),
+            *(scale * part.reshape(shape) for scale, part, shape in zip(self._scale, parts, self._shapes, strict=True))
         )
 
 
@@ -186,10 +192,10 @@ class Linearised:
     def __call__(self, step: Fields) -> Fields:
         """Return the change of u - T(u) under a change of u."""
         finite, circulant = self._finite, self._circulant
-        change = finite.stress_change(self._stiffness, step)
+        change, excess = finite.change(self._stiffness, step)
         forces = finite.forces(change[:4])
         forces[0, 0] += self._turning * step.displacement[0, 0]
-        load = circulant.load(forces, change[4:])
+        load = circulant.load(forces, change[4:], excess)
         # Contact forces keep the contact nodes at their distance from the road, and carry no more than before.
         missed = (self._normal * (step.displacement[:, 0] - circulant.surface(load))).sum(axis=0)[self._inside]
         held = lu_solve(self._saddle, np.append(-missed, 0.0), check_finite=False)
