@@ -31,6 +31,7 @@ def uniform(finite: FiniteBlock, stretch: float, shear: float, thickness: float)
     fields.displacement[0] = shear * (heights - heights[-1])[:, None]
     fields.displacement[1] = (stretch - 1.0) * heights[:, None]
     fields.log_thickness[:] = np.log(thickness)
+    fields.volume[:] = stretch * thickness if finite.block.plane == "stress" else stretch
     return fields
 
 
@@ -41,15 +42,16 @@ def flat(finite: FiniteBlock, pressure: float) -> Fields:
 
 
 def random_step(finite: FiniteBlock, rng: np.random.Generator, size: float = 1.0) -> Fields:
-    """Return random fields: strains of about ``size``, no u_x at the top, no mean of u_y at the road."""
+    """Return a random step: strains of about ``size``, top moved as a whole, mean surface where it was."""
     rest, block = finite.at_rest(), finite.block
     length = size * min(block.column_width, float(np.diff(block.row_positions).min()))
     step = Fields(
         length * rng.uniform(-1.0, 1.0, rest.displacement.shape),
         size * rng.uniform(-1.0, 1.0, rest.log_thickness.shape),
+        size * rng.uniform(-1.0, 1.0, rest.volume.shape),
     )
-    step.displacement[0, -1] = 0.0
-    step.displacement[1, 0] -= step.displacement[1, 0].mean()
+    step.displacement[0, -1] = step.displacement[0, -1, 0]
+    step.displacement[:, 0] -= step.displacement[:, 0].mean(axis=-1, keepdims=True)
     return step
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from finite_fields import ELASTIC, PROPORTIONAL, RUBBER, WAVENUMBER, WIDTH, coarse, flat, random_step, uniform
 from numpy.typing import NDArray
 
 from rubfric.finiteblock import Fields, FiniteBlock
-from rubfric.finitestrain import Inverted, volumetric_energy
+from rubfric.finitestrain import Inverted, volumetric_energy, volumetric_stress
 from rubfric.material import Material
 
 Real = NDArray[np.float64]
@@ -88,15 +90,17 @@ def test_pressed_block_is_in_balance_with_its_load(plane: str, rubber: Material)
 
 @PLANES
 @RUBBERS
-def test_stress_change_is_the_derivative_of_the_stresses(
+def test_change_is_the_derivative_of_the_stresses_and_of_the_excess_of_volume(
     plane: str, rubber: Material, rng: np.random.Generator
 ) -> None:
     finite = coarse(plane, rubber)
     fields, step, share = deformed(finite, rng), random_step(finite, rng), 1e-5
-    change = finite.stress_change(finite.stiffness(finite.stressed(fields)), step)
-    ahead, behind = (finite.stressed(fields.moved(step, sign * share)).stress for sign in (1.0, -1.0))
-    numeric = (ahead - behind) / (2.0 * share)
+    change, excess = finite.change(finite.stiffness(fields, finite.stressed(fields)), step)
+    ahead, behind = (finite.stressed(fields.moved(step, sign * share)) for sign in (1.0, -1.0))
+    numeric = (ahead.stress - behind.stress) / (2.0 * share)
     np.testing.assert_allclose(change, numeric, atol=1e-6 * np.abs(change).max())
+    numeric = (ahead.volume_excess - behind.volume_excess) / (2.0 * share)
+    np.testing.assert_allclose(excess, numeric, atol=1e-6 * np.abs(excess).max())
 
 
 @PLANES
@@ -104,9 +108,13 @@ def test_elastic_forces_are_the_derivative_of_the_energy(plane: str, rng: np.ran
     finite = coarse(plane, ELASTIC)
     fields, step, share = deformed(finite, rng), random_step(finite, rng), 1e-5
 
+    # The derivative of the energy in which the volume follows the deformation.
+    fields.volume[:] = finite.dilatation(finite.stressed(fields).deformation.volume)
+
     def energy(moved: Fields) -> float:
         state = finite.stressed(moved).deformation
-        volumetric = volumetric_energy(ELASTIC.long_term_bulk_modulus, finite.dilatation(state.volume))
+        volume = np.broadcast_to(finite.dilatation(state.volume), state.volume.shape)
+        volumetric = volumetric_energy(ELASTIC.long_term_bulk_modulus, volume)
         trace = state.isochoric_squared[[0, 1, 3]].sum(axis=0)
         return float(((volumetric + 0.5 * ELASTIC.long_term_shear_modulus * trace) * finite.weights).sum())
 
@@ -122,7 +130,7 @@ def test_elastic_forces_are_the_derivative_of_the_energy(plane: str, rng: np.ran
 def test_block_is_the_same_everywhere_along_the_road(plane: str, rubber: Material, rng: np.random.Generator) -> None:
     finite = coarse(plane, rubber)
     fields = deformed(finite, rng)
-    rolled = Fields(np.roll(fields.displacement, 3, axis=-1), np.roll(fields.log_thickness, 3, axis=-1))
+    rolled = Fields(*(np.roll(getattr(fields, field.name), 3, axis=-1) for field in dataclasses.fields(Fields)))
     expected = np.roll(finite.stressed(fields).stress, 3, axis=-1)
     np.testing.assert_allclose(finite.stressed(rolled).stress, expected, atol=1e-12 * np.abs(expected).max())
 
@@ -183,7 +191,28 @@ def test_dilatation_acts_by_its_mean_over_cells_in_plane_strain(plane: str, rng:
     if plane == "stress":
         np.testing.assert_array_equal(acting, volume)
     else:
-        np.testing.assert_allclose(acting, np.broadcast_to(volume.mean(axis=0), volume.shape), rtol=1e-15)
+        np.testing.assert_allclose(acting, volume.mean(axis=0, keepdims=True), rtol=1e-15)
+
+
+@PLANES
+@RUBBERS
+def test_excess_of_volume_is_what_the_deformation_lacks(plane: str, rubber: Material, rng: np.random.Generator) -> None:
+    finite = coarse(plane, rubber)
+    uniformly = uniform(finite, 0.8, 0.2, 1.1)
+    np.testing.assert_allclose(finite.stressed(uniformly).volume_excess, 0.0, atol=1e-14)
+    fields = deformed(finite, rng)
+    state = finite.stressed(fields)
+    known = finite.dilatation(state.deformation.volume)
+    np.testing.assert_allclose(state.volume_excess, fields.volume - known, atol=1e-14)
+
+
+@PLANES
+def test_pressure_follows_the_volume_and_not_the_deformation(plane: str, rng: np.random.Generator) -> None:
+    finite = coarse(plane, ELASTIC)
+    fields = deformed(finite, rng)
+    state = finite.stressed(fields)
+    expected, _ = volumetric_stress(ELASTIC.long_term_bulk_modulus, fields.volume)
+    np.testing.assert_allclose(state.volumetric, expected, rtol=1e-14)
 
 
 @PLANES
@@ -210,7 +239,20 @@ def test_power_inside_is_that_of_the_nodal_forces(plane: str, rubber: Material, 
     assert power == pytest.approx(moving, rel=1e-9)
 
 
-def test_point_turned_inside_out_is_refused() -> None:
-    finite = coarse("strain")
-    with pytest.raises(Inverted):
-        finite.stressed(uniform(finite, -0.1, 0.0, 1.0))
+@PLANES
+def test_point_turned_inside_out_is_refused(plane: str) -> None:
+    finite = coarse(plane)
+    inverted = uniform(finite, -0.1, 0.0, 1.0)
+    inverted.volume[:] = 1.0
+    with pytest.raises(Inverted, match=r"^smallest det F is -0\.1$"):
+        finite.stressed(inverted)
+
+
+@PLANES
+@pytest.mark.parametrize("volume", [0.0, -0.2])
+def test_point_without_volume_is_refused(plane: str, volume: float) -> None:
+    finite = coarse(plane)
+    fields = finite.at_rest()
+    fields.volume[..., 3] = volume
+    with pytest.raises(Inverted, match=r"^smallest volume ratio is (0|-0\.2)$"):
+        finite.stressed(fields)

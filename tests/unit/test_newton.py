@@ -78,10 +78,11 @@ def test_first_guess_of_the_contact_does_not_matter(plane: str) -> None:
 def test_start_is_left_alone(plane: str) -> None:
     problem = sliding(coarse(plane))
     start, touching = flat(problem.finite, 0.5), everywhere(problem.finite)
-    before = start.displacement.copy(), start.log_thickness.copy()
+    before = start.displacement.copy(), start.log_thickness.copy(), start.volume.copy()
     newton(problem, start, road(0.5), touching, 1e-6)
     np.testing.assert_array_equal(start.displacement, before[0])
     np.testing.assert_array_equal(start.log_thickness, before[1])
+    np.testing.assert_array_equal(start.volume, before[2])
     assert touching.all()
 
 
