@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from rubfric import contact as contact_module
-from rubfric.contact import Contact, full_contact, solve_contact
+from rubfric.contact import Contact, Convolution, full_contact, pivot, solve_contact
 from rubfric.errors import NotConverged
 from rubfric.material import Material
 from rubfric.reference import layer_compliance
@@ -220,6 +220,60 @@ def test_single_pivots_alone_reach_the_same_contact(
     solved = solve_contact(compliance, profile, 0.5, everywhere(64))
     assert solved.iterations > expected.iterations
     np.testing.assert_allclose(solved.pressure, expected.pressure, atol=1e-9 * expected.pressure.max())
+
+
+@pytest.mark.parametrize("nodes", [63, 64])
+def test_convolution_is_a_matrix_of_shifted_kernels(
+    paper_rubber: Material, rng: np.random.Generator, nodes: int
+) -> None:
+    compliance = spectrum(paper_rubber, nodes)
+    surface, kernel = Convolution(compliance, nodes), np.fft.irfft(compliance, nodes)
+    dense = np.array([np.roll(kernel, shift) for shift in range(nodes)]).T
+    pressure, inside = rng.random(nodes), np.array([0, 3, 4, nodes - 1])
+    np.testing.assert_allclose(surface.deflection(pressure), dense @ pressure, atol=1e-13 * np.abs(dense).sum())
+    np.testing.assert_array_equal(surface.matrix(inside), dense[np.ix_(inside, inside)])
+
+
+class Uneven:
+    """A surface that is not the same everywhere: its compliance is any matrix."""
+
+    def __init__(self, matrix: Real) -> None:
+        self.whole = matrix
+
+    def matrix(self, inside: NDArray[np.intp]) -> Real:
+        return self.whole[np.ix_(inside, inside)]
+
+    def deflection(self, pressure: Real) -> Real:
+        return self.whole @ pressure
+
+
+def test_any_positive_surface_can_be_pivoted(rng: np.random.Generator) -> None:
+    nodes, nominal = 40, 0.7
+    factor, twist = rng.standard_normal((2, nodes, nodes))
+    matrix = factor @ factor.T / nodes + 0.1 * np.eye(nodes) + 0.2 * (twist - twist.T)
+    profile = rng.standard_normal(nodes)
+    solved = pivot(Uneven(matrix), profile, nominal, everywhere(nodes))
+    assert 0 < np.count_nonzero(solved.touching) < nodes
+    gap = matrix @ solved.pressure + solved.offset - profile
+    np.testing.assert_allclose(gap, solved.gap, atol=1e-10)
+    assert solved.pressure.min() == 0.0
+    assert np.all(solved.gap[solved.touching] == 0.0)
+    assert solved.pressure.mean() == pytest.approx(nominal, rel=1e-12)
+
+
+def test_solve_contact_pivots_a_convolution(paper_rubber: Material) -> None:
+    compliance, profile = spectrum(paper_rubber, 64), sine(64)
+    one = solve_contact(compliance, profile, 0.5, everywhere(64))
+    other = pivot(Convolution(compliance, 64), profile, 0.5, everywhere(64))
+    np.testing.assert_array_equal(one.pressure, other.pressure)
+    assert (one.offset, one.iterations) == (other.offset, other.iterations)
+
+
+def test_flat_surface_without_a_mean_compliance_is_pressed_evenly(paper_rubber: Material) -> None:
+    # Where all nodes touch, only the load tells the mean pressure.
+    solved = solve_contact(spectrum(paper_rubber, 64), np.full(64, 0.3), 2.0, everywhere(64))
+    np.testing.assert_allclose(solved.pressure, 2.0, rtol=1e-9)
+    assert solved.offset == pytest.approx(0.3, rel=1e-12)
 
 
 def test_what_is_not_finite_is_no_solution() -> None:
