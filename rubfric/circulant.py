@@ -95,7 +95,7 @@ class Circulant:
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
         self.compliance[..., -1] = self.compliance[..., -1].real
-        self.compliance[0, :, 0] = self._surface[0, 0] = 0.0
+        self.compliance[..., 0] = self._surface[:, 0] = 0.0
 
     def load(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> Load:
         """Return the load of nodal forces, N per mm, of stresses C_zz S_zz, MPa, and of an excess of volume."""

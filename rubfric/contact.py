@@ -127,7 +127,14 @@ def solve_contact(
     return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label)
 
 
-def pivot(surface: Surface, profile: Real, nominal: float, start: Flags, label: str = "contact") -> Contact:
+def pivot(
+    surface: Surface,
+    profile: Real,
+    nominal: float,
+    start: Flags,
+    label: str = "contact",
+    most_steps: int = MOST_STEPS,
+) -> Contact:
     """Solve the complementarity problem from a first guess of the contact.
 
     Parameters
@@ -142,17 +149,19 @@ def pivot(surface: Surface, profile: Real, nominal: float, start: Flags, label: 
         First guess, not empty; rather too large than too small.
     label : str
         Name that an error carries.
+    most_steps : int
+        Pivoting steps after which to give up.
 
     Raises
     ------
     NotConverged
-        After ``MOST_STEPS`` steps, with the number of nodes that still violate a condition; at once where the
+        After ``most_steps`` steps, with the number of nodes that still violate a condition; at once where the
         system is singular, its solution is not finite, or more nodes touch than can be solved at once.
     """
     nodes = len(profile)
     height_scale = float(np.ptp(profile)) or 1.0
     touching, best, patience = start.copy(), nodes + 1, _PATIENCE
-    for step in range(1, MOST_STEPS + 1):
+    for step in range(1, most_steps + 1):
         inside = np.flatnonzero(touching)
         if len(inside) > _MOST_NODES:
             raise NotConverged(label, step, len(inside), f"number of nodes in contact (at most {_MOST_NODES})")
@@ -180,7 +189,7 @@ def pivot(surface: Surface, profile: Real, nominal: float, start: Flags, label: 
             touching[np.flatnonzero(violated)[-1]] ^= True
         if not touching.any():
             touching[int(np.argmin(gap))] = True
-    raise NotConverged(label, MOST_STEPS, count, "number of surface nodes that violate contact")
+    raise NotConverged(label, most_steps, count, "number of surface nodes that violate contact")
 
 
 def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:

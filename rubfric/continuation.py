@@ -51,6 +51,7 @@ class History:
     def left(self, what: str, stalled: Stalled) -> None:
         """Record a failure."""
         self.steps += stalled.steps
+        self.krylov += stalled.krylov
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
 

@@ -35,7 +35,7 @@ _CLOSURE, _FINER = 0.7, 1.5
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
 _SHORTFALL = 0.1
 # Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
-_TOLERANCE = 1e-5
+_TOLERANCE = 1e-6
 # On a flat road displacements count by this share of a wavelength instead.
 _FLAT = 1e-8
 

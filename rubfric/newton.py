@@ -23,17 +23,21 @@ _MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
 # Share of the decrease of a full linear step that a step must bring.
 _DECREASE = 0.1
-# GMRES solves to this share of the residual.
-_FORCING = 0.01
+# A step may end above the last residual, as long as it ends below the larger of so many of them.
+_MEMORY = 2
+# GMRES solves to a share of the residual: the loosest where residuals fall slowly, in proportion where they fall fast.
+# Far from the solution an exact direction leads astray: along soft modes of the tangent there, not of the contact.
+_LOOSEST, _TIGHTEST, _IN_PROPORTION = 0.03, 0.01, 0.5
 
 
 class Stalled(RuntimeError):
-    """Newton's method came to an end without a solution: why, after how many steps, and how far off."""
+    """Newton's method came to an end without a solution: why, after how much work, and how far off."""
 
-    def __init__(self, reason: str, steps: int, residual: float) -> None:
-        super().__init__(reason, steps, residual)
+    def __init__(self, reason: str, steps: int, krylov: int, residual: float) -> None:
+        super().__init__(reason, steps, krylov, residual)
         self.reason = reason
         self.steps = steps
+        self.krylov = krylov
         self.residual = residual
 
 
@@ -85,21 +89,31 @@ def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, 
             circulant = Circulant(problem.finite, stiffness, road.pressure)
             correction = problem.correct(circulant, fields, road, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
-            raise Stalled(str(error), steps, residuals[-1]) from error
+            raise Stalled(str(error), steps, krylov, residuals[-1]) from error
         touching = correction.contact.touching
         size = problem.size(correction.step)
         residuals.append(size)
         if size <= tolerance:
             return Solved(fields, correction, tuple(residuals[1:]), krylov)
         if steps >= _MOST_STEPS:
-            raise Stalled("too many steps", steps, size)
+            raise Stalled("too many steps", steps, krylov, size)
         linear = Linearised(problem, circulant, stiffness, correction, road)
-        direction, count = _direction(problem, linear, correction.step)
+        direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
         krylov += count
-        fields, touching = _advance(problem, circulant, fields, direction, road, correction, size, steps)
+        ahead = _advance(problem, circulant, fields, direction, road, correction, max(residuals[1:][-_MEMORY:]))
+        if ahead is None:
+            raise Stalled("no step brings the residual down", steps, krylov, size)
+        fields, touching = ahead
 
 
-def _direction(problem: SlidingContact, linear: Linearised, right: Fields) -> tuple[Fields, int]:
+def _forcing(residuals: list[float]) -> float:
+    """Return the share of the residual to which GMRES should solve."""
+    if len(residuals) < 3:
+        return _LOOSEST
+    return min(_LOOSEST, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
+
+
+def _direction(problem: SlidingContact, linear: Linearised, right: Fields, forcing: float) -> tuple[Fields, int]:
     """Return the Newton direction and how often the tangent was applied."""
     vector = problem.pack(right)
     applied = 0
@@ -110,7 +124,7 @@ def _direction(problem: SlidingContact, linear: Linearised, right: Fields) -> tu
         return problem.pack(linear(problem.unpack(packed)))
 
     operator = LinearOperator((vector.size, vector.size), matvec=apply, dtype=float)
-    solution, _ = gmres(operator, vector, rtol=_FORCING, restart=_MOST_KRYLOV, maxiter=1)
+    solution, _ = gmres(operator, vector, rtol=forcing, restart=_MOST_KRYLOV, maxiter=1)
     return problem.unpack(solution), applied
 
 
@@ -122,9 +136,11 @@ def _advance(
     road: Road,
     correction: Correction,
     size: float,
-    steps: int,
-) -> tuple[Fields, Flags]:
-    """Return the fields after a step along a direction, as long as brings u - T(u) down, and their contact nodes."""
+) -> tuple[Fields, Flags] | None:
+    """Return the fields after a step along a direction, as long as brings u - T(u) below ``size``.
+
+    With them, their contact nodes; None where no step does.
+    """
     share = 1.0
     while share >= _SHORTEST_STEP:
         moved = fields.moved(direction, share)
@@ -136,4 +152,4 @@ def _advance(
             if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:
                 return moved, ahead.contact.touching
         share *= 0.5
-    raise Stalled("no step brings the residual down", steps, size)
+    return None

@@ -20,9 +20,10 @@ from rubfric.circulant import Circulant
 from rubfric.contact import Contact, pivot
 from rubfric.finiteblock import Fields, FiniteBlock, Stiffness, Stressed
 
-
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
 _VOLUME = 0.03
+# A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
+_MOST_PIVOTS = 100
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ class SlidingContact:
         slope = road.slope(position)
         height = fields.displacement[1, 0] - road.height(position) - slope * free[0] + free[1]
         surface = SlopedSurface(circulant.compliance, slope, width)
-        contact = pivot(surface, -height, road.pressure, touching, self.label)
+        contact = pivot(surface, -height, road.pressure, touching, self.label, _MOST_PIVOTS)
         step = circulant.solve(load, np.stack((-slope, np.ones_like(slope))) * contact.pressure * width)
         step.displacement[1] += contact.offset
         return Correction(step, contact, position, slope, state)
