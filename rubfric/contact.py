@@ -124,7 +124,7 @@ def solve_contact(
     label: str = "contact",
 ) -> Contact:
     """Solve the complementarity problem of a circulant C, as ``pivot`` does; arguments as in ``full_contact``."""
-    return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label)
+    return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label, MOST_STEPS)
 
 
 def pivot(

@@ -211,6 +211,12 @@ def test_running_out_of_steps_raises_with_label_step_and_residual(
     assert caught.value.residual >= 1
 
 
+def test_pivoting_gives_up_when_told(paper_rubber: Material) -> None:
+    surface = Convolution(spectrum(paper_rubber, 256), 256)
+    with pytest.raises(NotConverged, match=r"^rough: not converged after 3 steps"):
+        pivot(surface, sine(256), 0.1, everywhere(256), "rough", most_steps=3)
+
+
 def test_single_pivots_alone_reach_the_same_contact(
     paper_rubber: Material, rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch
 ) -> None:

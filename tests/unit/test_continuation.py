@@ -41,7 +41,7 @@ def stalling(monkeypatch: pytest.MonkeyPatch) -> Callable[[Stall], list[Road]]:
         def sometimes(problem: SlidingContact, start: object, road: Road, *rest: object) -> Solved:
             tried.append(road)
             if stalls(road):
-                raise Stalled("no luck", 2, 0.5)
+                raise Stalled("no luck", 2, 9, 0.5)
             return newton(problem, start, road, *rest)
 
         monkeypatch.setattr(continuation, "newton", sometimes)
@@ -125,6 +125,7 @@ def test_all_ways_stalled_is_an_error_with_the_scenes_name(
     ) as caught:
         reach(problem, pressed, ROAD, TOLERANCE, history)
     assert caught.value.step == history.steps == 2 * len(tried)
+    assert history.krylov == 9 * len(tried)
     assert len(history.lines) == len(tried)
     assert {road.pressure == PRESSURE for road in tried} == {True, False}
 
@@ -137,7 +138,7 @@ def test_attempt_records_a_failure_and_passes_it_on(
     with pytest.raises(Stalled, match="no luck"):
         attempt(problem, pressed, ROAD, TOLERANCE, history, "a try")
     assert history.lines == ["a try: left after 2 Newton steps, no luck"]
-    assert (history.steps, history.krylov) == (2, 0)
+    assert (history.steps, history.krylov) == (2, 9)
 
 
 def test_history_adds_up(problem: SlidingContact, pressed: Start) -> None:

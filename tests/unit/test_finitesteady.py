@@ -193,7 +193,7 @@ def test_coarse_mesh_that_does_not_help_is_made_good(monkeypatch: pytest.MonkeyP
     expected = solve(scene)
 
     def stall(*_: object) -> None:
-        raise Stalled("no luck", 1, 0.1)
+        raise Stalled("no luck", 1, 9, 0.1)
 
     monkeypatch.setattr(finitesteady, "attempt", stall)
     found = solve_finite(scene, DECISION)
@@ -205,7 +205,7 @@ def test_coarse_mesh_that_does_not_help_is_made_good(monkeypatch: pytest.MonkeyP
 
 def test_scene_that_does_not_converge_raises_with_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
     def stall(*_: object) -> None:
-        raise Stalled("no luck", 1, 0.1)
+        raise Stalled("no luck", 1, 9, 0.1)
 
     monkeypatch.setattr("rubfric.continuation.newton", stall)
     with pytest.raises(NotConverged, match=rf"^{PARTIAL.name}: not converged after \d+ steps, .* is 0\.1$"):

@@ -35,8 +35,10 @@ def test_easy_contact_converges_fast(plane: str, rubber: Material) -> None:
 
 
 @PLANES
-def test_residual_falls_with_every_step(plane: str) -> None:
-    assert np.all(np.diff(solve(sliding(coarse(plane)), 4.0).residuals) < 0.0)
+def test_residual_soon_falls_with_every_step(plane: str) -> None:
+    sizes = np.array(solve(sliding(coarse(plane)), 4.0).residuals)
+    assert sizes.argmin() == len(sizes) - 1
+    assert np.all(np.diff(sizes[-4:]) < 0.0)
 
 
 @PLANES
@@ -92,7 +94,7 @@ def test_tolerance_below_round_off_stalls_and_tells_how_far_it_came() -> None:
         solve(problem, tolerance=0.0)
     stalled = caught.value
     assert stalled.reason
-    assert stalled.steps >= 3
+    assert stalled.krylov >= stalled.steps >= 3
     assert 0.0 < stalled.residual < 1e-8
 
 
@@ -102,7 +104,7 @@ def test_start_turned_inside_out_stalls_at_once() -> None:
     start.displacement[1] = -2.0 * problem.finite.block.row_positions[:, None]
     with pytest.raises(Stalled, match="smallest det F is -1") as caught:
         newton(problem, start, road(1.0), everywhere(problem.finite), 1e-6)
-    assert caught.value.steps == 0
+    assert caught.value.steps == caught.value.krylov == 0
 
 
 def test_contact_without_a_solution_stalls(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,5 +119,6 @@ def test_contact_without_a_solution_stalls(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_stalled_survives_pickling() -> None:
-    stalled = pickle.loads(pickle.dumps(Stalled("too many steps", 16, 0.25)))
-    assert (stalled.reason, stalled.steps, stalled.residual) == ("too many steps", 16, 0.25)
+    stalled = pickle.loads(pickle.dumps(Stalled("too many steps", 16, 300, 0.25)))
+    known = (stalled.reason, stalled.steps, stalled.krylov, stalled.residual)
+    assert known == ("too many steps", 16, 300, 0.25)

@@ -78,7 +78,7 @@ def test_scene_that_does_not_converge_in_finite_strain_has_no_result(
     finite: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def stall(*_: object) -> None:
-        raise Stalled("too many steps", 3, 0.5)
+        raise Stalled("too many steps", 3, 40, 0.5)
 
     monkeypatch.setattr(continuation, "newton", stall)
     with pytest.raises(NotConverged, match=rf"^{finite.name}: not converged after \d+ steps, distance from balance"):

@@ -21,8 +21,9 @@ from finite_fields import (
 )
 from numpy.typing import NDArray
 
+from rubfric import slidingcontact
 from rubfric.circulant import Circulant
-from rubfric.contact import Convolution
+from rubfric.contact import Convolution, pivot
 from rubfric.errors import NotConverged
 from rubfric.finiteblock import Fields
 from rubfric.finitestrain import Inverted
@@ -207,6 +208,6 @@ def test_fields_turned_inside_out_are_refused() -> None:
 def test_contact_without_a_solution_carries_the_label(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = sliding(coarse("strain"))
     fields = flat(problem.finite, 0.1)
-    monkeypatch.setattr("rubfric.contact.MOST_STEPS", 1)
+    monkeypatch.setattr(slidingcontact, "pivot", lambda *given: pivot(*given[:5], most_steps=1))
     with pytest.raises(NotConverged, match=r"^some scene: not converged after 1 steps, number of surface nodes"):
         problem.correct(averaged(problem, fields), fields, road(0.1), everywhere(problem.finite))
