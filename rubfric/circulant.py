@@ -187,7 +187,8 @@ def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
     points = stiffness.points
     local, give, take = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
     past = _contract("ijpr,jkpr->ikpr", give, take)
-    moduli: Complex = local[..., None] - past[..., None] * finite.shear_kernel
+    moduli: Complex = past[..., None] * -finite.shear_kernel
+    moduli += local[..., None]
     return moduli
 
 

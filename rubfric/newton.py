@@ -19,6 +19,8 @@ from rubfric.finitestrain import Inverted
 from rubfric.slidingcontact import Correction, Linearised, Road, SlidingContact
 
 _MOST_STEPS = 16
+# A direction that took more Krylov iterations is worth a new average of the tangent.
+_WORTH = 6
 _MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
 # Share of the decrease of a full linear step that a step must bring.
@@ -80,35 +82,41 @@ def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, 
     Stalled
         Where the residual no longer falls, a point is turned inside out, or the linearised contact has no solution.
     """
-    fields, residuals, krylov = start, [np.inf], 0
+    residuals: list[float] = []
+    fields, circulant, krylov = start, None, 0
     while True:
-        steps = len(residuals) - 1
+        steps = max(0, len(residuals) - 1)
         try:
-            state = problem.finite.stressed(fields)
-            stiffness = problem.finite.stiffness(fields, state)
-            circulant = Circulant(problem.finite, stiffness, road.pressure)
-            correction = problem.correct(circulant, fields, road, touching)
+            if circulant is None:
+                state = problem.finite.stressed(fields)
+                stiffness = problem.finite.stiffness(fields, state)
+                circulant = Circulant(problem.finite, stiffness, road.pressure)
+                correction = problem.correct(circulant, fields, road, touching)
+            else:
+                stiffness = problem.finite.stiffness(fields, correction.state)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
-            raise Stalled(str(error), steps, krylov, residuals[-1]) from error
-        touching = correction.contact.touching
+            raise Stalled(str(error), steps, krylov, residuals[-1] if residuals else np.inf) from error
         size = problem.size(correction.step)
         residuals.append(size)
         if size <= tolerance:
-            return Solved(fields, correction, tuple(residuals[1:]), krylov)
-        if steps >= _MOST_STEPS:
-            raise Stalled("too many steps", steps, krylov, size)
+            return Solved(fields, correction, tuple(residuals), krylov)
+        if len(residuals) > _MOST_STEPS:
+            raise Stalled("too many steps", len(residuals) - 1, krylov, size)
         linear = Linearised(problem, circulant, stiffness, correction, road)
         direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
         krylov += count
-        ahead = _advance(problem, circulant, fields, direction, road, correction, max(residuals[1:][-_MEMORY:]))
+        ahead = _advance(problem, circulant, fields, direction, road, correction, max(residuals[-_MEMORY:]))
         if ahead is None:
-            raise Stalled("no step brings the residual down", steps, krylov, size)
-        fields, touching = ahead
+            raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
+        fields, correction = ahead
+        touching = correction.contact.touching
+        if count > _WORTH and problem.size(correction.step) > tolerance:
+            circulant = None
 
 
 def _forcing(residuals: list[float]) -> float:
     """Return the share of the residual to which GMRES should solve."""
-    if len(residuals) < 3:
+    if len(residuals) < 2:
         return _LOOSEST
     return min(_LOOSEST, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
 
@@ -136,10 +144,10 @@ def _advance(
     road: Road,
     correction: Correction,
     size: float,
-) -> tuple[Fields, Flags] | None:
+) -> tuple[Fields, Correction] | None:
     """Return the fields after a step along a direction, as long as brings u - T(u) below ``size``.
 
-    With them, their contact nodes; None where no step does.
+    With them, what T makes of them; None where no step does.
     """
     share = 1.0
     while share >= _SHORTEST_STEP:
@@ -150,6 +158,6 @@ def _advance(
             pass
         else:
             if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:
-                return moved, ahead.contact.touching
+                return moved, ahead
         share *= 0.5
     return None
