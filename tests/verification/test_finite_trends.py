@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
-from conftest import SceneMaker
+from collections.abc import Callable
 
+import pytest
+
+from rubfric.scene import Scene
 from rubfric.simulation import simulate
+
+SceneMaker = Callable[..., Scene]
 
 # Speed in mm/s, pressure in MPa, friction in finite and in small strain; scale 1, aspect 0.75, plane stress.
 EARLIER = [

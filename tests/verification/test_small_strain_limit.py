@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
-from conftest import SceneMaker
 
 from rubfric.energy import evaluate
 from rubfric.material import Material
 from rubfric.reference import full_contact_pressure
 from rubfric.road import SineScale
-from rubfric.scene import Numerics
+from rubfric.scene import Numerics, Scene
 from rubfric.steady import solve
+
+SceneMaker = Callable[..., Scene]
 
 SAME_MESH = Numerics(contact_nodes=16, finite_contact_nodes=16, columns_min=128, finite_columns_min=128)
 
