@@ -42,7 +42,7 @@ class Numerics:
 
     accuracy: float = 0.01
     contact_nodes: int = 64
-    finite_contact_nodes: int = 24
+    finite_contact_nodes: int = 32
     columns_min: int = 256
     finite_columns_min: int = 128
     columns_max: int = 32768

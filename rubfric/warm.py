@@ -24,10 +24,11 @@ from rubfric.simulation import simulate
 
 def _use_everything() -> None:
     rubber = Material("warm", 1.0, 0.4, (0.5,), (1.0,))
-    numerics = Numerics(contact_nodes=4, columns_min=8, row_growth=2.0, output_columns=8)
-    scene = Scene(1, SineScale(0.1, 1.0), 1.0, 0.01, 0.5, rubber, "stress", numerics)
-    with tempfile.TemporaryDirectory() as folder:
-        write(simulate(scene), Path(folder) / "warm.nc")
+    numerics = Numerics(contact_nodes=4, columns_min=8, finite_columns_min=8, row_growth=2.0, output_columns=8)
+    for kinematics in ("small", "finite"):
+        scene = Scene(1, SineScale(0.1, 1.0), 1.0, 0.01, 0.5, rubber, "stress", numerics, kinematics)
+        with tempfile.TemporaryDirectory() as folder:
+            write(simulate(scene), Path(folder) / "warm.nc")
     for module in pkgutil.iter_modules(rubfric.figures.__path__, "rubfric.figures."):
         import_module(module.name)
     from matplotlib.figure import Figure
