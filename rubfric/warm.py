@@ -14,6 +14,7 @@ from importlib import import_module
 from pathlib import Path
 
 import rubfric.collection
+import rubfric.figures
 import rubfric.tables
 from rubfric.dataset import write
 from rubfric.material import Material
