@@ -54,7 +54,7 @@ def _small_strain(solution: SteadySolution) -> list[str]:
         ]
     if correction > scene.numerics.accuracy:
         return [
-            f"Finite strain would change friction by about {correction:.1%} (nominal compression "
+            f"Finite strain may change friction by up to {correction:.1%} (nominal compression "
             f"{solution.compression:.1%}, slope {scene.road.steepest_slope:.2g}): small strain is only indicative here."
         ]
     return []

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Real, Whole
+from rubfric.errors import InvalidInput
 from rubfric.material import Material
 from rubfric.scene import Scene
 
@@ -71,7 +72,11 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
     frozen = tuple(sorted(branch for branch in folded if not relaxes[branch]))
     if not relaxed and len(frozen) < 2:  # one frozen branch gathered is the branch that it was
         return Folding(material, (), (), 0.0)
-    return Folding(_reduced(material, relaxed, frozen), relaxed, frozen, float(bound.max()))
+    try:
+        reduced = _reduced(material, relaxed, frozen)
+    except InvalidInput:  # a rubber so near to a liquid that its digits do not suffice
+        return Folding(material, (), (), 0.0)
+    return Folding(reduced, relaxed, frozen, float(bound.max()))
 
 
 def fold_scene(scene: Scene, harmonics: Whole) -> Folding:

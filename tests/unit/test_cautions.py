@@ -81,7 +81,7 @@ def test_estimate_of_what_finite_strain_changes_is_noted_from_the_accuracy_on() 
     assert accurate == NOTHING
     compression = 0.1 / RUBBER.confined_modulus("stress")
     assert indicative == [
-        f"Finite strain would change friction by about 1.0% (nominal compression {compression:.1%}, slope 0.53): "
+        f"Finite strain may change friction by up to 1.0% (nominal compression {compression:.1%}, slope 0.53): "
         "small strain is only indicative here."
     ]
 
