@@ -43,9 +43,9 @@ def test_flat_roads_agree_to_a_thousandth(difference, plane: str, load: float) -
 
 
 def test_difference_falls_with_the_square_of_the_slope(difference) -> None:
-    # Nearly incompressible plane strain: the load, which falls with the slope, squeezes the block by nothing.
+    # All but incompressible plane strain: the load, which falls with the slope, squeezes the block by nothing.
     # What is left on a road all but flat is the difference of the two quadratures.
-    flat, fine, coarse = (difference(slope, 1.3, "strain", 0.4999) for slope in (1e-3, 0.025, 0.05))
+    flat, fine, coarse = (difference(slope, 1.3, "strain", 0.499999) for slope in (1e-3, 0.025, 0.05))
     assert abs(flat) < 1e-4
     assert (coarse - flat) / (fine - flat) == pytest.approx(4.0, rel=0.1)
 
