@@ -1,7 +1,7 @@
 # make figures   set up a local environment and run the campaign: every table and figure, in results/
 # make test      set up and pass the tests
 # make check     formatting, lint, types, workflow lint
-# make bench     time scenes in-process and the campaign against its floor; writes docs/benchmark.md
+# make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3

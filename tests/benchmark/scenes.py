@@ -1,8 +1,8 @@
-"""Time every scene of the paper's grid in this process, start-up excluded, beside a bare contact solve.
+"""Time every scene of the paper's grid in this process, start-up excluded: small strain, finite strain and auto.
 
-The bare solve is the least that any method needs: the closed-form compliance of the layer at 256 surface points
-and the complementarity problem, without a mesh, fields or energies. Both are timed scene by scene, in turn, so
-that their ratio holds on a noisy machine.
+Beside them stands a bare contact solve, the least that any method needs in small strain: the closed-form compliance
+of the layer at 256 surface points and the complementarity problem, without a mesh, fields or energies. All are
+timed scene by scene, in turn, so that their ratios hold on a noisy machine.
 """
 
 from __future__ import annotations
@@ -15,19 +15,32 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import resource
 import statistics
 import time
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import tables
 
+from rubfric import newton, simulation, slidingcontact
 from rubfric.campaign import load
 from rubfric.contact import full_contact, solve_contact
 from rubfric.reference import layer_compliance
-from rubfric.scene import Scene
+from rubfric.scene import KINEMATICS, Scene
 from rubfric.simulation import simulate
 
 POINTS = 256
 ROUNDS = 3
+PLANES = ("stress", "strain")
+# What the parts of a scene in finite strain are called: module, name, label.
+PARTS = (
+    (newton, "Circulant", "averaged tangent, built and factorised"),
+    (slidingcontact.Linearised, "__call__", "Krylov iterations"),
+    (slidingcontact.SlidingContact, "correct", "stresses and linearised contact solves"),
+    (simulation, "evaluate", "energies and fields"),
+    (simulation.dataset, "build", "dataset"),
+)
 
 
 def bare(scene: Scene) -> None:
@@ -48,38 +61,73 @@ def seconds(work, scene: Scene) -> float:
     return time.perf_counter() - started
 
 
+def measure(scenes: list[Scene]) -> dict[str, list[float]]:
+    """Return the times of all scenes in the three kinematics and of the bare solve; each scene's median round."""
+    rounds: dict[str, list[list[float]]] = defaultdict(list)
+    for scene in scenes:
+        kinds = {kind: (simulate, replace(scene, kinematics=kind)) for kind in KINEMATICS}
+        kinds["bare"] = (bare, scene)
+        for kind, (work, chosen) in kinds.items():
+            rounds[kind].append([seconds(work, chosen) for _ in range(ROUNDS)])
+    return {kind: [statistics.median(times) for times in scene_times] for kind, scene_times in rounds.items()}
+
+
+def shares(scenes: list[Scene]) -> dict[str, float]:
+    """Return the share of the time of all scenes in finite strain that goes into each of ``PARTS``."""
+    spent: dict[str, float] = defaultdict(float)
+
+    def timed(function: Callable, label: str) -> Callable:
+        def call(*arguments, **named):
+            started = time.perf_counter()
+            try:
+                return function(*arguments, **named)
+            finally:
+                spent[label] += time.perf_counter() - started
+
+        return call
+
+    kept = [(owner, name, getattr(owner, name)) for owner, name, _ in PARTS]
+    for (owner, name, function), (_, _, label) in zip(kept, PARTS, strict=True):
+        setattr(owner, name, timed(function, label))
+    total = sum(seconds(simulate, replace(scene, kinematics="finite")) for scene in scenes)
+    for owner, name, function in kept:
+        setattr(owner, name, function)
+    found = {label: spent[label] / total for _, _, label in PARTS}
+    return found | {"tangent, meshes and the rest": 1.0 - sum(found.values())}
+
+
 def main() -> None:
     """Measure, print and publish."""
     campaign = load(Path(__file__).resolve().parents[2] / "config/config.yaml")
     scenes = [scene for scene in campaign.scenes().values() if scene.aspect == campaign.aspect]
     simulate(scenes[0])
     bare(scenes[0])
-    ours, least = [], []
-    for _ in range(ROUNDS):
-        for scene in scenes:
-            ours.append(seconds(simulate, scene))
-            least.append(seconds(bare, scene))
-    slowest = [max(ours[index :: len(scenes)]) for index in range(len(scenes))]
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     rows: list[tuple[str, ...]] = [("one scene, in-process", "median", "90 %", "slowest")]
-    for name, times in (
-        ("whole scene: mesh, contact, fields, energies", ours),
-        ("bare contact solve, 256 points", least),
-    ):
-        rows.append((name, *(f"{1e3 * value:.1f} ms" for value in quantiles(times))))
+    ratio = 0.0
+    for plane in PLANES:
+        times = measure([replace(scene, plane=plane) for scene in scenes])
+        for kind in KINEMATICS:
+            rows.append((f"plane {plane}, {kind}", *written(times[kind])))
+
+        if plane == "strain":
+            rows.append(("bare contact solve in small strain, 256 points", *written(times["bare"])))
+            ratio = statistics.median(times["small"]) / statistics.median(times["bare"])
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    parts = ", ".join(f"{label} {share:.0%}" for label, share in shares(scenes).items())
     text = (
         f"{tables.markdown(rows)}\n\n"
-        f"{len(scenes)} scenes, {ROUNDS} rounds; ratio of the medians "
-        f"{statistics.median(ours) / statistics.median(least):.2f}; every scene's slowest round at most "
-        f"{max(slowest):.2f} s; peak memory {memory:.0f} MB. {tables.machine()}."
+        f"{len(scenes)} scenes in each plane, the median of {ROUNDS} rounds of each; small strain takes {ratio:.1f} "
+        f"times a bare contact solve; peak memory {memory:.0f} MB. Where the time of finite strain goes: {parts}. "
+        f"{tables.machine()}."
     )
     print(text)
     tables.publish("scenes", text)
 
 
-def quantiles(times: list[float]) -> tuple[float, float, float]:
-    """Return the median, the 90 % quantile and the largest."""
-    return statistics.median(times), float(np.quantile(times, 0.9)), max(times)
+def written(times: list[float]) -> tuple[str, str, str]:
+    """Return the median, the 90 % quantile and the largest, in words."""
+    values = (statistics.median(times), float(np.quantile(times, 0.9)), max(times))
+    return tuple(f"{1e3 * value:.0f} ms" if value < 1.0 else f"{value:.1f} s" for value in values)
 
 
 if __name__ == "__main__":
