@@ -67,30 +67,30 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        gradient, weights = _gradient(finite), finite.weights
+        slope, weights = _slope(finite), finite.weights
+        weighed = slope.conj() * weights
         volume = stiffness.points.volume.mean(axis=-1)[..., None]
         bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
         moduli = _moduli(finite, stiffness)
         # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
-        self._dilatation = finite.dilatation((volume[:4, None] * gradient).sum(axis=0).swapaxes(0, 1)).swapaxes(0, 1)
-        cells = np.zeros((4, 4, *gradient.shape[3:]), dtype=complex)
+        self._dilatation = _caused(volume, slope)
+        if finite.unknowns == 4:
+            self._dilatation = self._dilatation.mean(axis=1, keepdims=True)
         if finite.unknowns == 5:
             moduli += volume[:, None] * volume * bulk
-            give, take = moduli[:4, 4], moduli[4, :4]
             self._yield = 1.0 / moduli[4, 4]
             self._swelling = volume[4] * bulk
             self._volume_thickness = volume[4]
             # The thickness that displacements cause, and the forces of a thickness that they do not.
-            self._thickness = _contract("iprn,iaprn->aprn", take * self._yield, gradient)
-            self._thickness_force = _contract("iaprn,iprn->aprn", gradient.conj(), give * self._yield * weights)
-            moduli = moduli[:4, :4] - give[:, None] * (take * self._yield)
-            self._volume_force = _contract("iaprn,iprn->aprn", gradient.conj(), volume[:4] * (bulk * weights))
+            give, take = moduli[:4, 4], moduli[4, :4] * self._yield
+            self._thickness, self._thickness_force = _caused(take, slope), _caused(give * self._yield, weighed)
+            self._volume_force = _caused(volume * bulk, weighed)
+            moduli = moduli[:4, :4] - give[:, None] * take
         else:
-            area = weights.sum(axis=0)
-            self._volume_force = self._dilatation.conj() * (bulk * area)
+            self._volume_force = self._dilatation.conj() * (bulk * weights.sum(axis=0))
+        cells = _cells(moduli, slope, weighed)
+        if finite.unknowns == 4:
             cells += self._dilatation[:, 0] * self._volume_force[:, None, 0]
-        stressed = _contract("ijprn,japrn->iaprn", moduli, gradient)
-        cells += _contract("iaprn,ibprn->abrn", gradient.conj() * weights, stressed)
         self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
@@ -178,31 +178,44 @@ class Circulant:
         return factors, pivots
 
 
-def _contract(subscripts: str, *operands: Complex | Real) -> Complex:
-    return np.asarray(np.einsum(subscripts, *operands))
-
-
 def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
     """Return the averaged moduli of all harmonics at constant volume, MPa, (m, m, points, rows, n)."""
     points = stiffness.points
     local, give, take = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
-    past = _contract("ijpr,jkpr->ikpr", give, take)
+    past = np.einsum("ijpr,jkpr->ikpr", give, take)
     moduli: Complex = past[..., None] * -finite.shear_kernel
     moduli += local[..., None]
     return moduli
 
 
-def _gradient(finite: FiniteBlock) -> Complex:
-    """Return the displacement gradient of harmonics, 1/mm, shape (4, 4, points, rows, n).
+def _slope(finite: FiniteBlock) -> Complex:
+    """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
+    turn = np.exp(2j * np.pi / finite.block.columns * finite.block.harmonics)
+    nodes = finite.quadrature.gradients.transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
+    slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
+    return slope
 
-    From u_x and u_y of the lower row of nodes, then of the upper one, to xx, xy, yx, yy; the latter come first.
+
+def _caused(weight: Complex | Real, slope: Complex) -> Complex:
+    """Return what u_x and u_y of the lower and the upper nodes cause through a weight on their gradients.
+
+    The weight of the gradient's xx, xy, yx, yy comes first; what is beyond them does not count.
+    Shape (4, points, rows, n), the upper nodes last.
     """
-    block = finite.block
-    turn = np.exp(2j * np.pi / block.columns * block.harmonics)
-    nodes = finite.quadrature.gradients.transpose(2, 3, 1, 0)[..., None]  # (node, derivative, point, row, 1)
-    gradient = np.zeros((4, 4, *nodes.shape[2:4], len(turn)), dtype=complex)
-    for level in (0, 1):
-        both = nodes[2 * level] + nodes[2 * level + 1] * turn
-        for component in (0, 1):
-            gradient[2 * component : 2 * component + 2, 2 * level + component] = both
-    return gradient
+    parts = [
+        weight[2 * component] * slope[0, level] + weight[2 * component + 1] * slope[1, level]
+        for level in (0, 1)
+        for component in (0, 1)
+    ]
+    return np.stack(parts)
+
+
+def _cells(moduli: Complex, slope: Complex, weighed: Complex) -> Complex:
+    """Return the stiffness of the cells, (4, 4, rows, n); nodes and components as in ``_caused``."""
+    cells = np.empty((4, 4, *slope.shape[3:]), dtype=complex)
+    for column in range(4):
+        level, component = divmod(column, 2)
+        stress = moduli[:, 2 * component] * slope[0, level]
+        stress += moduli[:, 2 * component + 1] * slope[1, level]
+        cells[:, column] = _caused(stress, weighed).sum(axis=1)
+    return cells
