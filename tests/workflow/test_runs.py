@@ -58,12 +58,17 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
     }
     full = {name for name, fraction in fractions.items() if fraction == 1.0}
     assert 0 < len(full) < len(fractions) == 18
-    project.edit("rubfric/contact.py", lambda text: re.sub(r"(?m)^MOST_STEPS = \d+$", "MOST_STEPS = 1", text))
+    # Contact that may not pivot is found where it fills the road from the start, if anywhere.
+    project.edit(
+        "rubfric/slidingcontact.py", lambda text: re.sub(r"(?m)^_MOST_PIVOTS = \d+$", "_MOST_PIVOTS = 1", text)
+    )
     done = project.snakemake("--keep-going")
     assert done.returncode == 1
-    assert set(project.scene_files) == full
-    for name in set(fractions) - full:
-        sentence = rf"NotConverged: {name}: not converged after 1 steps, number of [a-z ]+ is \d+"
+    solved = set(project.scene_files)
+    assert solved
+    assert solved <= full
+    for name in set(fractions) - solved:
+        sentence = rf"NotConverged: {name}: not converged after \d+ steps, distance from balance and contact, .* is \S+"
         assert len(re.findall(rf"^{sentence} \(log: \S*{name}.log\)$", done.stderr, re.MULTILINE)) == 1
         log = project.results / "logs" / "scenes" / "zhou2019" / "zhou2019" / f"{name}.log"
         assert re.search(sentence + r"$", log.read_text())
