@@ -1,0 +1,99 @@
+"""Small strain is chosen only where finite strain would change friction by no more than the accuracy asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import product
+
+import pytest
+
+from rubfric.energy import evaluate
+from rubfric.kinematics import decide, estimated_correction
+from rubfric.scene import Numerics, Scene
+from rubfric.steady import solve
+
+SceneMaker = Callable[..., Scene]
+# Scale, mm/s, MPa; around where the estimate reaches a hundredth in plane strain.
+NEAR = [
+    (1, 0.1, 0.05),
+    (1, 0.1, 0.1),
+    (1, 0.1, 0.2),
+    (1, 10.0, 0.05),
+    (1, 10.0, 0.08),
+    (1, 10.0, 0.1),
+    (1, 10.0, 0.2),
+    (1, 100.0, 0.1),
+    (1, 100.0, 0.2),
+    (3, 0.1, 0.1),
+    (4, 0.1, 0.05),
+    (3, 10.0, 0.1),
+]
+# The same for a twentieth in plane stress.
+NEAR_IN_STRESS = [*product((1, 4), (0.1, 1.0), (0.1, 0.12)), (1, 10.0, 0.12), (1, 10.0, 0.15), (4, 10.0, 0.15)]
+PAPER = [*product((1,), (0.1, 10.0, 100.0), (0.5, 5.0)), (3, 10.0, 2.0), (3, 1000.0, 5.0)]
+
+
+def correction(scene: Scene) -> float:
+    """Return the relative change of friction from small to finite strain, by the contact, on one mesh."""
+    finite = solve(replace(scene, kinematics="finite", numerics=Numerics(finite_contact_nodes=64)))
+    columns = finite.block.columns
+    same = Numerics(contact_nodes=4, columns_min=columns, columns_max=columns, finite_columns_min=8)
+    small = solve(replace(scene, kinematics="small", numerics=same))
+    assert small.block.columns == columns
+    return evaluate(finite).contact / evaluate(small).contact - 1.0
+
+
+def assert_chosen_well(scene: Scene, accuracy: float) -> None:
+    auto = replace(scene, kinematics="auto", numerics=replace(scene.numerics, accuracy=accuracy))
+    assert decide(auto).kinematics == "finite" or abs(correction(scene)) <= accuracy
+
+
+@pytest.mark.parametrize(("scale", "velocity", "pressure"), NEAR)
+def test_plane_strain_to_a_hundredth(paper_scene: SceneMaker, scale: int, velocity: float, pressure: float) -> None:
+    assert_chosen_well(paper_scene(velocity, pressure, scale), 0.01)
+
+
+@pytest.mark.parametrize(("scale", "velocity", "pressure"), [(1, 0.1, 0.2), (1, 10.0, 0.5), (1, 100.0, 0.5)])
+def test_plane_strain_to_a_twentieth(paper_scene: SceneMaker, scale: int, velocity: float, pressure: float) -> None:
+    assert_chosen_well(paper_scene(velocity, pressure, scale), 0.05)
+
+
+@pytest.mark.parametrize(("scale", "velocity", "pressure"), NEAR_IN_STRESS)
+def test_plane_stress_to_a_twentieth(paper_scene: SceneMaker, scale: int, velocity: float, pressure: float) -> None:
+    assert_chosen_well(paper_scene(velocity, pressure, scale, plane="stress"), 0.05)
+
+
+def test_plane_stress_of_the_paper_needs_finite_strain_for_a_hundredth(paper_scene: SceneMaker) -> None:
+    for scale, velocity, pressure in product((1, 2, 3, 4), (0.1, 10.0, 1e3, 1e4), (0.1, 0.5, 5.0)):
+        scene = paper_scene(velocity, pressure, scale, plane="stress", kinematics="auto")
+        assert decide(scene).kinematics == "finite"
+
+
+def test_scenes_lie_on_both_sides(paper_scene: SceneMaker) -> None:
+    for points, plane, accuracy in ((NEAR, "strain", 0.01), (NEAR_IN_STRESS, "stress", 0.05)):
+        numerics = Numerics(accuracy=accuracy)
+        chosen = [
+            decide(paper_scene(v, p, scale, plane=plane, numerics=numerics, kinematics="auto")).kinematics
+            for scale, v, p in points
+        ]
+        assert min(chosen.count("small"), chosen.count("finite")) >= 3
+
+
+@pytest.mark.parametrize("plane", ["strain", "stress"])
+@pytest.mark.parametrize(("scale", "velocity", "pressure"), PAPER)
+def test_estimate_bounds_the_correction(
+    paper_scene: SceneMaker, scale: int, velocity: float, pressure: float, plane: str
+) -> None:
+    scene = paper_scene(velocity, pressure, scale, plane=plane)
+    assert estimated_correction(scene) >= abs(correction(scene))
+
+
+@pytest.mark.parametrize(("scale", "velocity"), [(1, 0.1), (1, 10.0), (3, 0.1)])
+@pytest.mark.parametrize("plane", ["strain", "stress"])
+def test_estimate_is_near_the_correction_at_the_lightest_load_of_the_paper(
+    paper_scene: SceneMaker, scale: int, velocity: float, plane: str
+) -> None:
+    # In plane stress it falls short by as much as 6 %, and by more under lighter loads.
+    scene = paper_scene(velocity, 0.1, scale, plane=plane)
+    assert estimated_correction(scene) >= 0.8 * abs(correction(scene))
