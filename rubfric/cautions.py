@@ -37,10 +37,11 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
     if closure > _CLOSURE_LIMIT:
         found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
     if not solution.resolved:
-        found.append(
-            f"Only {np.count_nonzero(solution.contact.touching)} surface nodes touch the road, fewer than asked for: "
-            "raise numerics.columns_max."
-        )
+        more = "raise numerics.columns_max"
+        if solution.block.columns < scene.numerics.columns_max:
+            more = "a mesh in finite strain has no more columns"
+        touching = np.count_nonzero(solution.contact.touching)
+        found.append(f"Only {touching} surface nodes touch the road, fewer than asked for: {more}.")
     return found
 
 

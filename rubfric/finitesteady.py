@@ -32,6 +32,9 @@ _REFINEMENT = 6
 _COLUMN_STEP = 8
 # Two routes to friction that differ by more than this share of the accuracy ask for so many times the columns.
 _CLOSURE, _FINER = 0.7, 1.5
+_MOST_FINER = 3
+# Columns beyond which a mesh in finite strain takes gigabytes.
+_MOST_COLUMNS = 4096
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
 _SHORTFALL = 0.1
 # Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
@@ -119,9 +122,9 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
     problem, flat = _meshed(scene, columns, max(numerics.row_growth, _COARSE_GROWTH))
     solved = reach(problem, flat, _road(scene), _TOLERANCE, history)
     # The first mesh is coarse in depth, also where it has all the columns that are needed.
-    final = numerics.row_growth >= _COARSE_GROWTH
-    while (finer := _next_columns(scene, problem.finite, solved)) > columns or not final:
-        columns, final = finer, True
+    final, refined = numerics.row_growth >= _COARSE_GROWTH, 0
+    while (finer := _next_columns(scene, problem.finite, solved, refined)) > columns or not final:
+        columns, final, refined = finer, True, refined + 1
         before, (problem, flat) = problem, _meshed(scene, columns, numerics.row_growth)
         start = Start(
             prolong(solved.fields, before.finite, problem.finite), _carry(solved.correction.contact.touching, columns)
@@ -189,21 +192,24 @@ def _first_columns(scene: Scene) -> int:
     return _fit(scene, needed)
 
 
-def _next_columns(scene: Scene, finite: FiniteBlock, solved: Solved) -> int:
-    """Return the columns of the mesh to follow; no more than there are where the contact is resolved."""
+def _next_columns(scene: Scene, finite: FiniteBlock, solved: Solved, refined: int) -> int:
+    """Return the columns of the mesh to follow; no more than there are where the contact is resolved.
+
+    ``refined`` meshes have followed the first one already.
+    """
     numerics, columns = scene.numerics, finite.block.columns
     touching = int(np.count_nonzero(solved.correction.contact.touching))
     needed = float(numerics.finite_columns_min)
     if touching < (1.0 - _SHORTFALL) * min(numerics.finite_contact_nodes, columns):
         needed = max(needed, numerics.finite_contact_nodes * columns / touching)
-    elif _friction(scene, finite, solved).disagreement > _CLOSURE * numerics.accuracy:
+    elif refined <= _MOST_FINER and _friction(scene, finite, solved).disagreement > _CLOSURE * numerics.accuracy:
         needed = max(needed, _FINER * columns)
     return max(columns, _fit(scene, min(needed, _REFINEMENT * columns)))
 
 
 def _fit(scene: Scene, columns: float) -> int:
     steps = int(next_fast_len(math.ceil(columns / _COLUMN_STEP), real=True))
-    return min(_COLUMN_STEP * steps, scene.numerics.columns_max)
+    return min(_COLUMN_STEP * steps, scene.numerics.columns_max, _MOST_COLUMNS)
 
 
 def _carry(touching: Flags, columns: int) -> Flags:
