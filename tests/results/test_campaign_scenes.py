@@ -42,10 +42,13 @@ def test_stored_energy_is_nowhere_negative(results: dict[str, xr.Dataset]) -> No
         assert result["strain_energy_density_profile"].values.min() > 0.0, name
 
 
-def test_energy_is_largest_near_the_road(results: dict[str, xr.Dataset]) -> None:
-    for name, result in results.items():
+def test_energy_is_largest_near_the_road_under_loads_up_to_1_mpa(results: dict[str, xr.Dataset]) -> None:
+    # Beyond, friction shears the rubber far from the road, and sliding stiffens that near it; a flat block is squeezed.
+    chosen = [r for r in results.values() if r.attrs["pressure"] <= 1.0 and r.attrs["aspect"] >= 0.5]
+    assert len(chosen) > 120
+    for result in chosen:
         profile = result["strain_energy_density_profile"].values
-        assert profile[0] > profile[-1], name
+        assert profile[0] > profile[-1], result.attrs["scene"]
 
 
 def test_fields_are_finite_and_repeat_over_the_wavelength(results: dict[str, xr.Dataset]) -> None:
@@ -60,8 +63,43 @@ def test_no_contact_is_unresolved(results: dict[str, xr.Dataset]) -> None:
     assert not [name for name, result in results.items() if "columns_max" in result.attrs["warnings"]]
 
 
-def test_heavily_pressed_scenes_say_so(results: dict[str, xr.Dataset]) -> None:
+def test_every_scene_is_solved_in_finite_strain_because_it_needs_it(results: dict[str, xr.Dataset]) -> None:
     for name, result in results.items():
-        noted = "small strain is only indicative" in result.attrs["warnings"]
-        assert noted == (0.1 < float(result["nominal_compression"]) < 1.0), name
-    assert sum("small strain" in result.attrs["warnings"] for result in results.values()) > 0
+        assert result.attrs["kinematics"] == "auto", name
+        assert result.attrs["kinematics_used"] == "finite", name
+        assert int(result["finite_strain"]) == 1, name
+        assert float(result["finite_strain_correction"]) > 0.01, name
+        assert "more than the accuracy asked for, 1.00%" in result.attrs["kinematics_reason"], name
+
+
+def test_the_way_to_every_solution_is_told(results: dict[str, xr.Dataset]) -> None:
+    for name, result in results.items():
+        steps = result.attrs["solver_history"].splitlines()
+        assert ": converged in " in steps[-1], name
+        assert int(result["iterations"]) >= len(steps), name
+        assert int(result["krylov_iterations"]) >= int(result["iterations"]), name
+
+
+def test_only_a_negative_poissons_ratio_is_warned_of(results: dict[str, xr.Dataset]) -> None:
+    for name, result in results.items():
+        warnings = result.attrs["warnings"].splitlines()
+        negative = float(result["effective_poissons_ratio"]) < 0.0
+        assert len(warnings) == negative, name
+        assert not negative or warnings[0].startswith("The effective Poisson's ratio is -"), name
+
+
+def test_energy_closes_in_every_scene(results: dict[str, xr.Dataset]) -> None:
+    for name, result in results.items():
+        assert float(result["energy_closure"]) <= 0.01, name
+
+
+def test_surface_is_nowhere_folded(results: dict[str, xr.Dataset]) -> None:
+    for name, result in results.items():
+        assert np.diff(result["surface_position"].values).min() > 0.0, name
+
+
+def test_local_pressure_counts_the_deformed_area(results: dict[str, xr.Dataset]) -> None:
+    for name, result in results.items():
+        nominal, local = result["contact_pressure"].values, result["local_contact_pressure"].values
+        np.testing.assert_array_equal(nominal > 0.0, local > 0.0, err_msg=name)
+        assert 0.25 * nominal.max() < local.max() < 2.0 * nominal.max(), name

@@ -13,23 +13,25 @@ import pandas as pd
 import pytest
 from project_copy import Project
 
+from rubfric.homogeneous import pressed
+
 SCALES = (1, 2, 3, 4)
 VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)
 PRESSURES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 ASPECTS = (0.25, 0.5, 0.75, 1.0, 1.5)
-# The friction coefficient, to hold to three digits, by scale, speed (mm/s), pressure (MPa) and aspect; plane stress.
+# The friction coefficient, to hold to half a percent, by scale, speed (mm/s), pressure (MPa) and aspect; plane stress.
 KNOWN = {
-    (1, 0.1, 5.0, 0.75): 0.001106,
-    (1, 100.0, 0.5, 0.75): 0.2097,
-    (1, 100.0, 5.0, 0.75): 0.1288,
-    (1, 500.0, 5.0, 0.75): 0.3138,
-    (1, 10000.0, 0.1, 0.75): 0.007811,
-    (1, 1.0, 0.5, 0.25): 0.05568,
-    (2, 500.0, 5.0, 0.75): 0.2788,
-    (3, 100.0, 5.0, 0.75): 0.3730,
-    (4, 100.0, 5.0, 0.75): 0.3592,
-    (4, 10.0, 2.0, 0.75): 0.2844,
-    (4, 10000.0, 0.1, 0.75): 0.002165,
+    (1, 0.1, 5.0, 0.75): 0.002344,
+    (1, 100.0, 0.5, 0.75): 0.1955,
+    (1, 100.0, 5.0, 0.75): 0.2064,
+    (1, 500.0, 5.0, 0.75): 0.2896,
+    (1, 10000.0, 0.1, 0.75): 0.007583,
+    (1, 1.0, 0.5, 0.25): 0.04770,
+    (2, 500.0, 5.0, 0.75): 0.2263,
+    (3, 100.0, 5.0, 0.75): 0.3121,
+    (4, 100.0, 5.0, 0.75): 0.2834,
+    (4, 10.0, 2.0, 0.75): 0.2743,
+    (4, 10000.0, 0.1, 0.75): 0.002109,
 }
 
 
@@ -91,6 +93,19 @@ def test_energy_closes_in_every_scene(every_scene: pd.DataFrame) -> None:
     assert every_scene["energy_closure"].max() <= 0.01
 
 
+def test_every_scene_needs_finite_strain(paper: Project, every_scene: pd.DataFrame) -> None:
+    assert (every_scene["finite_strain"] == 1).all()
+    assert every_scene["finite_strain_correction"].min() > paper.campaign.numerics.accuracy
+
+
+def test_compression_is_that_of_the_load_alone(paper: Project, every_scene: pd.DataFrame, total: pd.DataFrame) -> None:
+    rubber = paper.campaign.material
+    for table in (every_scene, total):
+        expected = [1.0 - pressed(rubber, pressure, "stress")[0] for pressure in table["pressure_MPa"]]
+        np.testing.assert_allclose(table["nominal_compression"], expected, rtol=1e-5)
+    assert 0.38 < every_scene["nominal_compression"].max() < 0.40
+
+
 def test_friction_from_energy_is_that_from_contact(every_scene: pd.DataFrame) -> None:
     for route in ("friction_coefficient_dissipation", "friction_coefficient_contact"):
         np.testing.assert_allclose(every_scene[route], every_scene["friction_coefficient"], rtol=0.01)
@@ -119,7 +134,8 @@ def test_contact_grows_with_pressure_and_shrinks_with_speed(scales: dict[int, pd
 
 def test_contact_is_resolved_in_every_scene(paper: Project, every_scene: pd.DataFrame) -> None:
     numerics = paper.campaign.numerics
-    assert every_scene["contact_nodes"].min() >= 0.9 * numerics.contact_nodes
+    assert every_scene["contact_nodes"].min() >= 0.9 * numerics.finite_contact_nodes
+    assert every_scene["columns"].min() >= numerics.finite_columns_min
     assert every_scene["columns"].max() < numerics.columns_max
 
 
@@ -154,7 +170,7 @@ def test_finer_scales_peak_no_later(scales: dict[int, pd.DataFrame]) -> None:
 def test_friction_is_as_known(scales: dict[int, pd.DataFrame], point: tuple[float, ...], friction: float) -> None:
     scale, *rest = point
     rows = scales[int(scale)].set_index(["velocity_mm_per_s", "pressure_MPa", "aspect"])
-    assert rows.loc[tuple(rest), "friction_coefficient"] == pytest.approx(friction, rel=2e-3)
+    assert rows.loc[tuple(rest), "friction_coefficient"] == pytest.approx(friction, rel=5e-3)
 
 
 def test_command_line_gives_the_number_of_the_table(paper: Project, scales: dict[int, pd.DataFrame]) -> None:

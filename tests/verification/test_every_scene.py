@@ -19,7 +19,7 @@ SceneMaker = Callable[..., Scene]
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config" / "config.yaml")
 HEAVY = 10.0
 # One mesh, the first: the way to the solution is what is tried here.
-COARSE = Numerics(accuracy=0.5, finite_contact_nodes=4, columns_min=8, finite_columns_min=64, row_growth=1.3)
+COARSE = Numerics(accuracy=0.5, finite_contact_nodes=4, columns_min=8, finite_columns_min=64, row_growth=1.5)
 
 
 @dataclass(frozen=True)
@@ -74,12 +74,12 @@ def test_forces_are_in_balance(outcomes: dict[int, list[Outcome]], scale: int) -
 
 
 def test_scenes_of_the_paper_are_solved_at_once(outcomes: dict[int, list[Outcome]]) -> None:
-    # All but one of 224 in plane stress, and but two in plane strain.
+    # All 224 in plane stress, and all but one in plane strain.
     paper = [outcome for scale in outcomes.values() for outcome in scale if outcome.pressure < HEAVY]
     assert sum(len(outcome.history) == 1 for outcome in paper) >= 0.98 * len(paper)
 
 
 def test_heavy_loads_are_mostly_solved_at_once(outcomes: dict[int, list[Outcome]]) -> None:
-    # 21 of 28 in plane stress, 25 in plane strain; the others along a growing road.
+    # 23 of 28 in plane stress, all in plane strain; the others along a growing road.
     heavy = [outcome for scale in outcomes.values() for outcome in scale if outcome.pressure == HEAVY]
     assert sum(len(outcome.history) == 1 for outcome in heavy) >= 0.6 * len(heavy)
