@@ -30,7 +30,7 @@ NEAR = [
     (3, 10.0, 0.1),
 ]
 # The same for a twentieth in plane stress.
-NEAR_IN_STRESS = [*product((1, 4), (0.1, 1.0), (0.1, 0.12)), (1, 10.0, 0.12), (1, 10.0, 0.15), (4, 10.0, 0.15)]
+NEAR_IN_STRESS = [*product((1, 4), (0.1, 1.0), (0.01, 0.03)), (1, 10.0, 0.01), (1, 10.0, 0.02), (1, 10.0, 0.05)]
 PAPER = [*product((1,), (0.1, 10.0, 100.0), (0.5, 5.0)), (3, 10.0, 2.0), (3, 1000.0, 5.0)]
 
 
@@ -89,11 +89,16 @@ def test_estimate_bounds_the_correction(
     assert estimated_correction(scene) >= abs(correction(scene))
 
 
-@pytest.mark.parametrize(("scale", "velocity"), [(1, 0.1), (1, 10.0), (3, 0.1)])
+@pytest.mark.parametrize(("velocity", "pressure"), [(0.1, 0.005), (0.1, 0.1), (10.0, 0.02)])
 @pytest.mark.parametrize("plane", ["strain", "stress"])
-def test_estimate_is_near_the_correction_at_the_lightest_load_of_the_paper(
-    paper_scene: SceneMaker, scale: int, velocity: float, plane: str
+def test_estimate_bounds_the_correction_under_light_loads(
+    paper_scene: SceneMaker, velocity: float, pressure: float, plane: str
 ) -> None:
-    # In plane stress it falls short by as much as 6 %, and by more under lighter loads.
-    scene = paper_scene(velocity, 0.1, scale, plane=plane)
-    assert estimated_correction(scene) >= 0.8 * abs(correction(scene))
+    scene = paper_scene(velocity, pressure, plane=plane)
+    assert estimated_correction(scene) >= abs(correction(scene))
+
+
+@pytest.mark.parametrize(("plane", "pressure"), [("strain", 0.5), ("stress", 0.1)])
+def test_estimate_bounds_the_correction_of_flat_blocks(paper_scene: SceneMaker, plane: str, pressure: float) -> None:
+    scene = paper_scene(0.1, pressure, plane=plane, aspect=0.25)
+    assert estimated_correction(scene) >= 0.95 * abs(correction(scene))
