@@ -176,6 +176,7 @@ def test_many_threads_lose_no_result(place: Workplace) -> None:
 
 def test_failures_among_many_threads_hit_their_own_jobs_only(place: Workplace) -> None:
     acts = ["write", "raise", "kill"] * 6
+    before = signal.getsignal(signal.SIGINT)
 
     def outcome(number: int) -> str:
         try:
@@ -188,7 +189,7 @@ def test_failures_among_many_threads_hit_their_own_jobs_only(place: Workplace) -
         outcomes = list(pool.map(outcome, range(len(acts))))
     assert outcomes == acts
     assert threading.active_count() == 1
-    assert signal.getsignal(signal.SIGINT) is not signal.SIG_IGN
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -> None:
