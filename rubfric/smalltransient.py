@@ -1,0 +1,222 @@
+"""The block in small strain, step by step: constant stiffness, condensed to the surface, one contact a step.
+
+Every mode of the block (``rubfric.surfacemodes``) is a scalar Maxwell element, updated exactly for coordinates that
+vary linearly over a step. What is left of a step is one complementarity problem of the surface, of a compliance that
+depends on the length of the step only. Displacements along the road are small, also at the surface: a node stays
+above its place.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.arrays import Complex, Flags, Real
+from rubfric.block import Block
+from rubfric.contact import MOST_STEPS, Contact, Convolution, pivot
+from rubfric.marching import Outcome
+from rubfric.relaxation import Relaxation, mean_square
+from rubfric.scene import Scene
+from rubfric.surfacemodes import surface_modes
+
+
+@dataclass(frozen=True)
+class SmallState:
+    """All that the next step depends on.
+
+    Attributes
+    ----------
+    modes : ndarray of complex, shape (modes,)
+        Coordinates of the modes.
+    behind : ndarray of complex, shape (branches, modes)
+        The part of them that the springs of the branches carry.
+    contact : ndarray, shape (columns,)
+        Contact pressure, MPa.
+    surface : ndarray, shape (columns,)
+        u_y at the surface, mm.
+    top : float
+        u_y of the top, mm.
+    offset : float
+        How far the road has gone past, mm.
+    pressure : float
+        Nominal, MPa.
+    """
+
+    modes: Complex
+    behind: Complex
+    contact: Real
+    surface: Real
+    top: float
+    offset: float
+    pressure: float
+
+
+@dataclass(frozen=True)
+class _Step:
+    """What depends on the length of a step only: factors, moduli of modes, MPa, and the compliance of the surface."""
+
+    duration: float
+    relaxation: Relaxation
+    kept: Real
+    share: Real
+    modulus: Real
+    surface: Convolution
+
+
+class SmallTransient:
+    """A block in small strain that a road goes past.
+
+    Parameters
+    ----------
+    scene : Scene
+        Road, rubber and plane; its speed and load do not count.
+    block : Block
+    """
+
+    def __init__(self, scene: Scene, block: Block) -> None:
+        self.scene, self.block = scene, block
+        material = scene.material
+        self._modes = surface_modes(block)
+        self._times = np.asarray(material.relaxation_times, dtype=float)
+        self._relaxed = self._modes.modulus(material.long_term_shear_modulus, material.long_term_bulk_modulus)
+        self._branches = self._modes.branch_moduli(material)
+        self._step: _Step | None = None
+        self.state = self.at_rest()
+        self.stored = 0.0
+
+    def at_rest(self) -> SmallState:
+        """Return the block as it was made, laid on the crests of the road without load."""
+        height, count = self._profile(0.0).max(), len(self._modes.reach)
+        columns = self.block.columns
+        none = np.zeros(count, dtype=complex)
+        behind = np.zeros((len(self._times), count), dtype=complex)
+        return SmallState(none, behind, np.zeros(columns), np.full(columns, height), float(height), 0.0, 0.0)
+
+    def press_relaxed(self, pressure: float) -> None:
+        """Bring the block into the state that infinitely slow pressing leaves, MPa."""
+        surface = self._convolution(self._relaxed)
+        contact = pivot(surface, self._profile(0.0), pressure, self._flags(), self.scene.name, MOST_STEPS)
+        modes = self._forces(contact.pressure, pressure) / self._relaxed
+        self._start(modes, np.zeros_like(self.state.behind), contact, pressure)
+
+    def slide_steadily(self, contact: Contact, pressure: float, velocity: float) -> None:
+        """Bring the block into the state of steady sliding, whose contact is known on this mesh."""
+        material = self.scene.material
+        frequency = self._modes.harmonic * self.scene.road.excitation_frequency(velocity)
+        transfer = material.branch_transfer(frequency)
+        modulus = self._relaxed + (self._branches * transfer).sum(axis=0)
+        modes = self._forces(contact.pressure, pressure) / modulus
+        self._start(modes, transfer * modes, contact, pressure)
+
+    def _start(self, modes: Complex, behind: Complex, contact: Contact, pressure: float) -> None:
+        self.state = self._loaded(modes, behind, contact, 0.0, pressure)
+        self.stored = self._stored(self.state)
+
+    def advance(self, duration: float, offset: float, pressure: float) -> Outcome:
+        """Go one step: the road to an offset, mm, and the load to a pressure, MPa, in a duration, s.
+
+        Raises
+        ------
+        NotConverged
+            Where no contact is found; the state stays what it was.
+        """
+        old, step = self.state, self._prepared(duration)
+        history = (step.kept[:, None] * self._branches * old.behind).sum(axis=0)
+        history -= step.share @ self._branches * old.modes
+        # What the surface does without contact, and where the contact was on the road.
+        free = self._surface(-history / step.modulus)
+        columns = round((offset - old.offset) / self.block.column_width)
+        touching = np.roll(old.contact > 0.0, -columns)
+        profile = self._profile(offset) - free
+        contact = pivot(step.surface, profile, pressure, self._flags(touching), self.scene.name, MOST_STEPS)
+        modes = (self._forces(contact.pressure, pressure) - history) / step.modulus
+        behind = step.kept[:, None] * old.behind + step.share[:, None] * (modes - old.modes)
+        self.state = self._loaded(modes, behind, contact, offset, pressure)
+        return self._outcome(old, step, contact)
+
+    def _loaded(self, modes: Complex, behind: Complex, contact: Contact, offset: float, pressure: float) -> SmallState:
+        strain = float(self._modes.surface(modes)[0].real)
+        surface = contact.offset + self._surface(modes)
+        return SmallState(
+            modes, behind, contact.pressure, surface, contact.offset + strain * self.block.height, offset, pressure
+        )
+
+    def _outcome(self, old: SmallState, step: _Step, contact: Contact) -> Outcome:
+        new, block = self.state, self.block
+        before, self.stored = self.stored, self._stored(new)
+        # Quadrature of each mode's dissipation is exact.
+        square = mean_square(step.relaxation, old.behind, new.modes - old.modes)
+        lost = ((self._branches / self._times[:, None]) * square).sum(axis=0) @ self._modes.weight
+        force = 0.5 * (old.contact + new.contact) * block.column_width
+        slope = self.scene.road.slope(block.column_positions + new.offset)
+        return Outcome(
+            friction=float(np.mean(new.contact * slope) / new.pressure),
+            road_work=float(force @ (new.surface - old.surface)),
+            load_work=-0.5 * (old.pressure + new.pressure) * block.width * (new.top - old.top),
+            stored=self.stored,
+            stored_change=self.stored - before,
+            dissipated=float(step.duration * lost),
+            contact_fraction=float(np.count_nonzero(new.contact)) / block.columns,
+            top=new.top,
+            iterations=contact.iterations,
+            krylov=0,
+        )
+
+    def _stored(self, state: SmallState) -> float:
+        """Return the energy stored in the block, N mm per mm of thickness."""
+        springs = self._relaxed * _square(state.modes) + (self._branches * _square(state.behind)).sum(axis=0)
+        return float(0.5 * springs @ self._modes.weight)
+
+    def _prepared(self, duration: float) -> _Step:
+        if self._step is None or self._step.duration != duration:
+            relaxation = Relaxation.over(duration, self._times)
+            modulus = self._relaxed + relaxation.share @ self._branches
+            surface = self._convolution(modulus)
+            self._step = _Step(duration, relaxation, relaxation.decay, relaxation.share, modulus, surface)
+        return self._step
+
+    def _convolution(self, modulus: Real) -> Convolution:
+        """Return the surface of modes of some moduli."""
+        compliance = self._modes.surface(self._modes.reach / modulus) * self.block.column_width
+        compliance[0] = 0.0
+        return Convolution(compliance, self.block.columns)
+
+    def _forces(self, contact: Real, pressure: float) -> Complex:
+        spectrum = np.fft.rfft(contact) * self.block.column_width
+        spectrum[0] = -pressure
+        return self._modes.forces(spectrum)
+
+    def _surface(self, modes: Complex) -> Real:
+        """Return u_y at the surface less its mean, mm, shape (columns,)."""
+        spectrum = self._modes.surface(modes)
+        spectrum[0] = 0.0
+        return np.fft.irfft(spectrum, self.block.columns)
+
+    def _profile(self, offset: float) -> Real:
+        return self.scene.road.height(self.block.column_positions + offset)
+
+    def _flags(self, touching: Flags | None = None) -> Flags:
+        """Return a first guess of the contact: the one given, unless it is empty, or everywhere."""
+        if touching is None or not touching.any():
+            return np.ones(self.block.columns, dtype=bool)
+        return touching
+
+    def snapshot(self) -> dict[str, Real]:
+        """Return the state as arrays, from which ``restore`` goes on."""
+        arrays = {part.name: np.asarray(getattr(self.state, part.name)) for part in dataclasses.fields(self.state)}
+        return arrays | {"stored": np.asarray(self.stored)}
+
+    def restore(self, arrays: Mapping[str, Real]) -> None:
+        """Take over the state of a snapshot of a block on the same mesh."""
+        given = {part.name: arrays[part.name] for part in dataclasses.fields(SmallState)}
+        for name in ("top", "offset", "pressure"):
+            given[name] = float(given[name])
+        self.state = SmallState(**given)
+        self.stored = float(arrays["stored"])
+
+
+def _square(amplitude: Complex) -> Real:
+    return amplitude.real**2 + amplitude.imag**2
