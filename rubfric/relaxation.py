@@ -1,106 +1,130 @@
-"""Maxwell branches over one step of time, exact where the strain varies linearly in it.
+"""Maxwell branches over one step of time, exact where the strain varies as a parabola through three instants.
 
-A branch of relaxation time tau carries w, with dw/dt = de/dt - w / tau. Over a step of length h in which e changes
-linearly by de, with a = h / tau,
+A branch of relaxation time tau carries w, with dw/dt = de/dt - w / tau. Over a step of length h in which e changes by
+D, after a step of length r h in which it changed by P, the parabola through the three values has, with x = t / h,
 
-    w(s) = exp(-s / tau) (w_0 + r) - r,    r = -de / a,    w(h) = exp(-a) w_0 + c de,    c = (1 - exp(-a)) / a.
+    de/dx = D + q (2 x - 1),    q = (D - P / r) / (1 + r),
 
-In finite strain e is -Cb^-1 and w is A - Cb^-1.
+and w(x) = exp(-a x) w_0 + c(x) D + d(x) q with a = h / tau and
+
+    c = (1 - exp(-a x)) / a,    d = 2 (x - c) / a - c.
+
+A straight line instead (q = 0: where nothing is known of the step before) puts the stress of a branch much faster than
+the step half a step behind: an error of first order. In finite strain e is -Cb^-1 and w is A - Cb^-1.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from rubfric.arrays import Real
 
 # Below this a, differences of nearly equal numbers are taken from their series.
-_SMALL = 2e-2
+_SMALL = 1e-2
+# Points of the quadrature that stands for exact integrals, and the power that gathers them at the begin of the step.
+_POINTS, _POWER = 48, 6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Relaxation:
-    """Factors of a step for each branch, all dimensionless and of shape (branches,).
+    """Factors of a step.
 
     Attributes
     ----------
-    ratio : ndarray
-        a, the length of the step over the relaxation time.
-    decay : ndarray
-        exp(-a), what is left of the state before.
-    share : ndarray
-        c, what is left of a change during the step.
-    middle : ndarray
-        Decay at the instant at which it is halfway between 1 and exp(-a).
-    instant : ndarray
-        That instant, as a share of the step.
-    weights : ndarray, shape (3, branches)
-        Of the begin, that instant and the end in the mean over the step of a quadratic function of exp(-s / tau).
+    duration : float
+        Length of the step, s.
+    times : ndarray, shape (branches,)
+        Relaxation times, s.
+    before : float
+        Length of the step before, s; infinite where nothing is known of it.
     """
 
-    ratio: Real
-    decay: Real
-    share: Real
-    middle: Real
-    instant: Real
-    weights: Real
+    duration: float
+    times: Real
+    before: float = np.inf
 
-    @classmethod
-    def over(cls, step: float, times: Real) -> Relaxation:
-        """Return the factors of a step of a length in s, for relaxation times in s."""
-        ratio = step / np.asarray(times, dtype=float)
-        decay, share = np.exp(-ratio), mean_decay(ratio)
-        middle = 0.5 * (1.0 + decay)
-        instant = -np.log1p(0.5 * np.expm1(-ratio)) / ratio
-        return cls(ratio, decay, share, middle, instant, _weights(ratio, decay))
+    @property
+    def ratio(self) -> Real:
+        """Length of the step over the relaxation times, a, shape (branches,)."""
+        return self.duration / self.times
+
+    @cached_property
+    def decay(self) -> Real:
+        """What is left of w at the end, exp(-a), shape (branches,)."""
+        return np.exp(-self.ratio)
+
+    @cached_property
+    def share(self) -> Real:
+        """What w at the end takes from the change D, shape (branches,)."""
+        _, line, bow = self.at(1.0)
+        return line + self._curved * bow
+
+    @cached_property
+    def lag(self) -> Real:
+        """What w at the end gives back of the change before, P, shape (branches,)."""
+        return self.at(1.0)[2] * self._curved * self.duration / self.before
+
+    @property
+    def _curved(self) -> float:
+        """1 / (1 + r)."""
+        return 1.0 / (1.0 + self.before / self.duration)
+
+    def bow(self, change: Real, previous: Real) -> Real:
+        """Return q from the changes D and P."""
+        answer: Real = self._curved * (change - self.duration / self.before * previous)
+        return answer
+
+    def at(self, share: float) -> tuple[Real, Real, Real]:
+        """Return exp(-a x), c and d at a share x of the step, each of shape (branches,)."""
+        reach = self.ratio * share
+        line = share * mean_decay(reach)
+        return np.exp(-reach), line, 2.0 * share * share * _half(reach) - line
+
+    @cached_property
+    def gram(self) -> Real:
+        """Means over the step of the products of exp(-a x), c and d, shape (branches, 3, 3)."""
+        points, weights = np.polynomial.legendre.leggauss(_POINTS)
+        roots = 0.5 * (points + 1.0)
+        factors = np.array([self.at(float(x)) for x in roots**_POWER])  # (points, 3, branches)
+        weights = 0.5 * weights * _POWER * roots ** (_POWER - 1)
+        return np.einsum("x,xib,xjb->bij", weights, factors, factors)
+
+    def mean_square(self, start: Real, change: Real, previous: Real) -> Real:
+        """Return the mean over the step of |w|².
+
+        Parameters
+        ----------
+        start : ndarray, shape (branches, ...)
+            w_0, real or complex.
+        change, previous : ndarray, shape (...)
+            D and P.
+        """
+        bow = self.bow(change, previous)
+        gram = self.gram.reshape(*self.gram.shape, *(1 for _ in change.shape))
+        line = 2.0 * gram[:, 0, 1] * change.conj() + 2.0 * gram[:, 0, 2] * bow.conj()
+        rest = gram[:, 1, 1] * _square(change) + gram[:, 2, 2] * _square(bow)
+        rest = rest + 2.0 * gram[:, 1, 2] * (change * bow.conj()).real
+        answer: Real = gram[:, 0, 0] * _square(start) + (start * line).real + rest
+        return answer
 
 
 def mean_decay(ratio: Real) -> Real:
     """Return (1 - exp(-a)) / a."""
-    share: Real = -np.expm1(-ratio) / ratio
-    return share
-
-
-def mean_square(relaxation: Relaxation, before: Real, change: Real) -> Real:
-    """Return the mean over a step of |w|², exactly.
-
-    Parameters
-    ----------
-    before : ndarray, shape (branches, ...)
-        w at the begin, real or complex.
-    change : ndarray, shape (...)
-        Change of e.
-    """
-    a = relaxation.ratio
-    one, two = mean_decay(a), mean_decay(2.0 * a)
-    # 1 - 2 c(a) + c(2a) and c(a) - c(2a), over a² and a: they vanish so for small a.
-    small = a < _SMALL
-    safe = np.where(small, 1.0, a)
-    square = np.where(small, np.polyval((31 / 2520, -1 / 24, 7 / 60, -1 / 4, 1 / 3), a), (1.0 - 2.0 * one + two) / (safe * safe))
-    mixed = np.where(small, np.polyval((31 / 720, -1 / 8, 7 / 24, -1 / 2, 1 / 2), a), (one - two) / safe)
-    shape = (-1,) + (1,) * change.ndim
-    one, two, square, mixed = (factor.reshape(shape) for factor in (one, two, square, mixed))
-    cross = (before * np.conj(change)).real
-    answer: Real = two * np.abs(before) ** 2 + 2.0 * mixed * cross + square * np.abs(change) ** 2
+    answer: Real = -np.expm1(-ratio) / ratio
     return answer
 
 
-def _weights(ratio: Real, decay: Real) -> Real:
-    """Integrate the quadratic through three equally spread values of E = exp(-s / tau), over s."""
-    half = -0.5 * np.expm1(-ratio)  # half the range of E
-    # Mean over the step of t and t², t = (E - middle) / half going from 1 to -1.
-    small = ratio < 0.1
-    safe, wide = np.where(small, 1.0, ratio), np.where(small, 1.0, half)
-    middle = 0.5 * (1.0 + decay)
-    first = mean_decay(safe) - middle
-    second = mean_decay(2.0 * safe) - 2.0 * middle * mean_decay(safe) + middle * middle
-    # dE = -E ds: the mean of t^n is that of t^n / (1 + d t) over dE, with d = half / middle.
-    d = half / middle
-    series_first = -d / 3 - d**3 / 5 - d**5 / 7
-    series_norm = 1 + d * d / 3 + d**4 / 5 + d**6 / 7
-    series_second = 1 / 3 + d * d / 5 + d**4 / 7 + d**6 / 9
-    first = np.where(small, series_first / series_norm, first / wide)
-    second = np.where(small, series_second / series_norm, second / (wide * wide))
-    return np.stack((0.5 * (second + first), 1.0 - second, 0.5 * (second - first)))
+def _half(ratio: Real) -> Real:
+    """Return (1 - (1 - exp(-a)) / a) / a, which is 1/2 for small a."""
+    small = ratio < _SMALL
+    safe = np.where(small, 1.0, ratio)
+    series = np.polyval((-1 / 720, 1 / 120, -1 / 24, 1 / 6), ratio)
+    return np.where(small, 0.5 - ratio * series, (1.0 - mean_decay(safe)) / safe)
+
+
+def _square(values: Real) -> Real:
+    answer: Real = values.real**2 + values.imag**2
+    return answer

@@ -1,14 +1,15 @@
 """The block in small strain, step by step: constant stiffness, condensed to the surface, one contact a step.
 
 Every mode of the block (``rubfric.surfacemodes``) is a scalar Maxwell element, updated exactly for coordinates that
-vary linearly over a step. What is left of a step is one complementarity problem of the surface, of a compliance that
-depends on the length of the step only. Displacements along the road are small, also at the surface: a node stays
+follow a parabola (``rubfric.relaxation``). What is left of a step is one complementarity problem of the surface, of a compliance that
+depends on the lengths of this step and the last. Displacements along the road are small, also at the surface: a node stays
 above its place.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -18,7 +19,7 @@ from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
 from rubfric.contact import MOST_STEPS, Contact, Convolution, pivot
 from rubfric.marching import Outcome
-from rubfric.relaxation import Relaxation, mean_square
+from rubfric.relaxation import Relaxation
 from rubfric.scene import Scene
 from rubfric.surfacemodes import surface_modes
 
@@ -33,6 +34,10 @@ class SmallState:
         Coordinates of the modes.
     behind : ndarray of complex, shape (branches, modes)
         The part of them that the springs of the branches carry.
+    change : ndarray of complex, shape (modes,)
+        Change of the coordinates in the last step.
+    duration : float
+        Length of the last step, s; infinite where there was none.
     contact : ndarray, shape (columns,)
         Contact pressure, MPa.
     surface : ndarray, shape (columns,)
@@ -47,6 +52,8 @@ class SmallState:
 
     modes: Complex
     behind: Complex
+    change: Complex
+    duration: float
     contact: Real
     surface: Real
     top: float
@@ -56,12 +63,10 @@ class SmallState:
 
 @dataclass(frozen=True)
 class _Step:
-    """What depends on the length of a step only: factors, moduli of modes, MPa, and the compliance of the surface."""
+    """What depends on the lengths of steps only: factors, moduli of the modes, MPa, compliance of the surface."""
 
-    duration: float
+    lengths: tuple[float, float]
     relaxation: Relaxation
-    kept: Real
-    share: Real
     modulus: Real
     surface: Convolution
 
@@ -93,7 +98,8 @@ class SmallTransient:
         columns = self.block.columns
         none = np.zeros(count, dtype=complex)
         behind = np.zeros((len(self._times), count), dtype=complex)
-        return SmallState(none, behind, np.zeros(columns), np.full(columns, height), float(height), 0.0, 0.0)
+        flat = np.full(columns, height)
+        return SmallState(none, behind, none, math.inf, np.zeros(columns), flat, float(height), 0.0, 0.0)
 
     def press_relaxed(self, pressure: float) -> None:
         """Bring the block into the state that infinitely slow pressing leaves, MPa."""
@@ -112,7 +118,7 @@ class SmallTransient:
         self._start(modes, transfer * modes, contact, pressure)
 
     def _start(self, modes: Complex, behind: Complex, contact: Contact, pressure: float) -> None:
-        self.state = self._loaded(modes, behind, contact, 0.0, pressure)
+        self.state = self._loaded(modes, behind, np.zeros_like(modes), math.inf, contact, 0.0, pressure)
         self.stored = self._stored(self.state)
 
     def advance(self, duration: float, offset: float, pressure: float) -> Outcome:
@@ -124,31 +130,37 @@ class SmallTransient:
             Where no contact is found; the state stays what it was.
         """
         old, step = self.state, self._prepared(duration)
-        history = (step.kept[:, None] * self._branches * old.behind).sum(axis=0)
-        history -= step.share @ self._branches * old.modes
-        # What the surface does without contact, and where the contact was on the road.
-        free = self._surface(-history / step.modulus)
-        columns = round((offset - old.offset) / self.block.column_width)
-        touching = np.roll(old.contact > 0.0, -columns)
-        profile = self._profile(offset) - free
+        relaxation = step.relaxation
+        kept = relaxation.decay[:, None] * old.behind - relaxation.lag[:, None] * old.change
+        history = (self._branches * kept).sum(axis=0) - (relaxation.share @ self._branches) * old.modes
+        # The road less what the surface does without contact; and the nodes now where contact was on the road.
+        profile = self._profile(offset) - self._surface(-history / step.modulus)
+        touching = np.roll(old.contact > 0.0, -round((offset - old.offset) / self.block.column_width))
         contact = pivot(step.surface, profile, pressure, self._flags(touching), self.scene.name, MOST_STEPS)
         modes = (self._forces(contact.pressure, pressure) - history) / step.modulus
-        behind = step.kept[:, None] * old.behind + step.share[:, None] * (modes - old.modes)
-        self.state = self._loaded(modes, behind, contact, offset, pressure)
+        change = modes - old.modes
+        behind = kept + relaxation.share[:, None] * change
+        self.state = self._loaded(modes, behind, change, duration, contact, offset, pressure)
         return self._outcome(old, step, contact)
 
-    def _loaded(self, modes: Complex, behind: Complex, contact: Contact, offset: float, pressure: float) -> SmallState:
-        strain = float(self._modes.surface(modes)[0].real)
+    def _loaded(
+        self,
+        modes: Complex,
+        behind: Complex,
+        change: Complex,
+        duration: float,
+        contact: Contact,
+        offset: float,
+        pressure: float,
+    ) -> SmallState:
+        top = contact.offset + float(self._modes.surface(modes)[0].real) * self.block.height
         surface = contact.offset + self._surface(modes)
-        return SmallState(
-            modes, behind, contact.pressure, surface, contact.offset + strain * self.block.height, offset, pressure
-        )
+        return SmallState(modes, behind, change, duration, contact.pressure, surface, top, offset, pressure)
 
     def _outcome(self, old: SmallState, step: _Step, contact: Contact) -> Outcome:
         new, block = self.state, self.block
         before, self.stored = self.stored, self._stored(new)
-        # Quadrature of each mode's dissipation is exact.
-        square = mean_square(step.relaxation, old.behind, new.modes - old.modes)
+        square = step.relaxation.mean_square(old.behind, new.change, old.change)
         lost = ((self._branches / self._times[:, None]) * square).sum(axis=0) @ self._modes.weight
         force = 0.5 * (old.contact + new.contact) * block.column_width
         slope = self.scene.road.slope(block.column_positions + new.offset)
@@ -158,7 +170,7 @@ class SmallTransient:
             load_work=-0.5 * (old.pressure + new.pressure) * block.width * (new.top - old.top),
             stored=self.stored,
             stored_change=self.stored - before,
-            dissipated=float(step.duration * lost),
+            dissipated=float(new.duration * lost),
             contact_fraction=float(np.count_nonzero(new.contact)) / block.columns,
             top=new.top,
             iterations=contact.iterations,
@@ -171,11 +183,11 @@ class SmallTransient:
         return float(0.5 * springs @ self._modes.weight)
 
     def _prepared(self, duration: float) -> _Step:
-        if self._step is None or self._step.duration != duration:
-            relaxation = Relaxation.over(duration, self._times)
+        lengths = (duration, self.state.duration)
+        if self._step is None or self._step.lengths != lengths:
+            relaxation = Relaxation(duration, self._times, self.state.duration)
             modulus = self._relaxed + relaxation.share @ self._branches
-            surface = self._convolution(modulus)
-            self._step = _Step(duration, relaxation, relaxation.decay, relaxation.share, modulus, surface)
+            self._step = _Step(lengths, relaxation, modulus, self._convolution(modulus))
         return self._step
 
     def _convolution(self, modulus: Real) -> Convolution:
@@ -212,7 +224,7 @@ class SmallTransient:
     def restore(self, arrays: Mapping[str, Real]) -> None:
         """Take over the state of a snapshot of a block on the same mesh."""
         given = {part.name: arrays[part.name] for part in dataclasses.fields(SmallState)}
-        for name in ("top", "offset", "pressure"):
+        for name in ("duration", "top", "offset", "pressure"):
             given[name] = float(given[name])
         self.state = SmallState(**given)
         self.stored = float(arrays["stored"])
