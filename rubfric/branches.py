@@ -1,7 +1,9 @@
 """What the branch tensors of finite viscoelasticity store and dissipate at a point: pure functions.
 
 They follow from D = A - Cb^-1, by how much a branch is behind its equilibrium, so that branches that keep up lose no
-digits. Tensors have their components xx, yy, xy, zz first. Source: Linder, Tkachuk and Miehe (2011, J. Mech. Phys. Solids 59, 2134).
+digits. Tensors have their components xx, yy, xy, zz first.
+
+Source: Linder, Tkachuk and Miehe (2011, J. Mech. Phys. Solids 59, 2134).
 """
 
 from __future__ import annotations
@@ -47,9 +49,7 @@ def trace(tensor: Real) -> Real:
 def inverted(tensor: Real) -> Real:
     """Return the inverse of a symmetric tensor, shape (4, ...)."""
     determinant = tensor[XX] * tensor[YY] - tensor[XY] * tensor[XY]
-    return np.stack(
-        (tensor[YY] / determinant, tensor[XX] / determinant, -tensor[XY] / determinant, 1.0 / tensor[ZZ])
-    )
+    return np.stack((tensor[YY] / determinant, tensor[XX] / determinant, -tensor[XY] / determinant, 1.0 / tensor[ZZ]))
 
 
 def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Real, Real]:

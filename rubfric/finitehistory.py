@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -69,10 +70,10 @@ class FiniteState:
     pressure: float
     stored: float
 
-    def arrays(self) -> dict[str, Real]:
+    def arrays(self) -> dict[str, Any]:
         """Return the state as arrays."""
         plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        arrays = {}
+        arrays: dict[str, Any] = {}
         for name, value in plain.items():
             if isinstance(value, Fields):
                 arrays |= {f"{name}.{part}": getattr(value, part) for part in _FIELDS}
@@ -81,9 +82,9 @@ class FiniteState:
         return arrays
 
     @classmethod
-    def from_arrays(cls, arrays: Mapping[str, Real]) -> FiniteState:
+    def from_arrays(cls, arrays: Mapping[str, Any]) -> FiniteState:
         """Return the state that ``arrays`` gave."""
-        given = {}
+        given: dict[str, Any] = {}
         for name in (field.name for field in dataclasses.fields(cls)):
             if name in ("fields", "before"):
                 given[name] = Fields(*(arrays[f"{name}.{part}"] for part in _FIELDS))
@@ -113,11 +114,12 @@ class Branches:
         shear, lag = float(self._shear @ relaxation.share), float(self._shear @ relaxation.lag)
         driving = np.tensordot(self._shear * relaxation.decay, state.behind, axes=(0, 1))
         driving += shear * state.inverse + lag * state.inverse_change
-        bulk, pressure = 0.0, 0.0
+        bulk: float = 0.0
+        pressure: Real | float = 0.0
         if self._bulk_relaxes:
             bulk, lag = float(self._bulk @ relaxation.share), float(self._bulk @ relaxation.lag)
-            pressure = np.tensordot(self._bulk * relaxation.decay, state.volume_behind, axes=1)
-            pressure -= bulk * state.fields.volume + lag * state.volume_change
+            kept = np.tensordot(self._bulk * relaxation.decay, state.volume_behind, axes=1)
+            pressure = kept - bulk * state.fields.volume - lag * state.volume_change
         return StepPast(shear, bulk, driving, pressure, len(self._finite.block.harmonics))
 
     def follow(self, state: FiniteState, relaxation: Relaxation, inverse: Real, volume: Real) -> tuple[Real, Real]:

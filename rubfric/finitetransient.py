@@ -106,9 +106,7 @@ class FiniteTransient:
         displacement[0] -= offset
         held = Fields(displacement, fields.log_thickness, fields.volume)
         touching = correction.contact.touching
-        self.state = self._unmoved(
-            held, inverse, behind, swollen, touching, self._force(correction), offset, pressure
-        )
+        self.state = self._unmoved(held, inverse, behind, swollen, touching, self._force(correction), offset, pressure)
 
     def _relaxed(self, fields: Fields, touching: Flags, force: Real, pressure: float) -> FiniteState:
         inverse = self.finite.stressed(fields).deformation.inverse
@@ -166,6 +164,10 @@ class FiniteTransient:
             raise Stalled(str(error), solved.steps, solved.krylov, solved.residuals[-1]) from error
         self._circulant = (lengths, solved.circulant)
         return outcome
+
+    def renew(self) -> None:
+        """Forget what only saves work: steps from here on do not depend on how the state was reached."""
+        self._circulant = None
 
     def _road(self, pressure: float, offset: float) -> Road:
         return Road(self.scene.road.amplitude, self.scene.road.wavenumber, pressure, offset)
@@ -236,4 +238,5 @@ class FiniteTransient:
 
     def restore(self, arrays: Mapping[str, Real]) -> None:
         """Take over the state of a snapshot of a block on the same mesh."""
-        self.state, self._circulant = FiniteState.from_arrays(arrays), None
+        self.state = FiniteState.from_arrays(arrays)
+        self.renew()

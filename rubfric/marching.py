@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -42,3 +42,16 @@ class Outcome:
     def imbalance(self) -> float:
         """External work less stored and dissipated energy: zero by the first law."""
         return self.road_work + self.load_work - self.stored_change - self.dissipated
+
+
+def together(first: Outcome, second: Outcome) -> Outcome:
+    """Return what two steps, one after the other, do."""
+    return replace(
+        second,
+        road_work=first.road_work + second.road_work,
+        load_work=first.load_work + second.load_work,
+        stored_change=first.stored_change + second.stored_change,
+        dissipated=first.dissipated + second.dissipated,
+        iterations=first.iterations + second.iterations,
+        krylov=first.krylov + second.krylov,
+    )

@@ -23,10 +23,6 @@ class Past(Protocol):
     ----------
     shear_kernel, bulk_kernel : ndarray of complex, shape (n,)
         H and B for the harmonics of the road, MPa.
-    remembered_driving : ndarray, shape (4, points, rows, columns), or float
-        M, MPa.
-    remembered_pressure : ndarray, shape of ``Fields.volume``, or float
-        N, MPa.
     bulk_relaxes : bool
         Whether B and N differ from zero.
     anchored : bool
@@ -35,10 +31,18 @@ class Past(Protocol):
 
     shear_kernel: Complex
     bulk_kernel: Complex
-    remembered_driving: Real | float
-    remembered_pressure: Real | float
     bulk_relaxes: bool
     anchored: bool
+
+    @property
+    def remembered_driving(self) -> Real | float:
+        """M, MPa, shape (4, points, rows, columns) or a number."""
+        ...
+
+    @property
+    def remembered_pressure(self) -> Real | float:
+        """N, MPa, in the shape of ``Fields.volume`` or a number."""
+        ...
 
     def shear(self, field: Real) -> Real:
         """Return H of a field of points, MPa."""
@@ -59,8 +63,8 @@ class SteadyPast:
         n k v, rad/s, of the harmonics 0 to columns / 2.
     """
 
-    remembered_driving = 0.0
-    remembered_pressure = 0.0
+    remembered_driving: Real | float = 0.0
+    remembered_pressure: Real | float = 0.0
     anchored = False
 
     def __init__(self, material: Material, frequencies: Real) -> None:
@@ -98,8 +102,8 @@ class StepPast:
         self, shear: float, bulk: float, remembered_driving: Real, remembered_pressure: Real | float, harmonics: int
     ) -> None:
         self._shear, self._bulk = shear, bulk
-        self.remembered_driving = remembered_driving
-        self.remembered_pressure = remembered_pressure
+        self.remembered_driving: Real | float = remembered_driving
+        self.remembered_pressure: Real | float = remembered_pressure
         self.bulk_relaxes = isinstance(remembered_pressure, np.ndarray)
         self.shear_kernel = np.full(harmonics, shear, dtype=complex)
         self.bulk_kernel = np.full(harmonics, bulk, dtype=complex)

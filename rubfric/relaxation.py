@@ -17,10 +17,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
-from rubfric.arrays import Real
+from rubfric.arrays import Complex, Real
+
+Numbers = TypeVar("Numbers", Real, Complex)
 
 # Below this a, differences of nearly equal numbers are taken from their series.
 _SMALL = 1e-2
@@ -72,9 +75,9 @@ class Relaxation:
         """1 / (1 + r)."""
         return 1.0 / (1.0 + self.before / self.duration)
 
-    def bow(self, change: Real, previous: Real) -> Real:
+    def bow(self, change: Numbers, previous: Numbers) -> Numbers:
         """Return q from the changes D and P."""
-        answer: Real = self._curved * (change - self.duration / self.before * previous)
+        answer: Numbers = self._curved * (change - self.duration / self.before * previous)
         return answer
 
     def at(self, share: float) -> tuple[Real, Real, Real]:
@@ -92,7 +95,7 @@ class Relaxation:
         weights = 0.5 * weights * _POWER * roots ** (_POWER - 1)
         return np.einsum("x,xib,xjb->bij", weights, factors, factors)
 
-    def mean_square(self, start: Real, change: Real, previous: Real) -> Real:
+    def mean_square(self, start: Numbers, change: Numbers, previous: Numbers) -> Real:
         """Return the mean over the step of |w|².
 
         Parameters
@@ -125,6 +128,6 @@ def _half(ratio: Real) -> Real:
     return np.where(small, 0.5 - ratio * series, (1.0 - mean_decay(safe)) / safe)
 
 
-def _square(values: Real) -> Real:
+def _square(values: Real | Complex) -> Real:
     answer: Real = values.real**2 + values.imag**2
     return answer

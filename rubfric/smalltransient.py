@@ -1,9 +1,9 @@
 """The block in small strain, step by step: constant stiffness, condensed to the surface, one contact a step.
 
 Every mode of the block (``rubfric.surfacemodes``) is a scalar Maxwell element, updated exactly for coordinates that
-follow a parabola (``rubfric.relaxation``). What is left of a step is one complementarity problem of the surface, of a compliance that
-depends on the lengths of this step and the last. Displacements along the road are small, also at the surface: a node stays
-above its place.
+follow a parabola (``rubfric.relaxation``). What is left of a step is one complementarity problem of the surface, of a
+compliance that depends on the lengths of this step and the last. Displacements along the road are small, also at the
+surface: a node stays above its place.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -182,6 +183,10 @@ class SmallTransient:
         springs = self._relaxed * _square(state.modes) + (self._branches * _square(state.behind)).sum(axis=0)
         return float(0.5 * springs @ self._modes.weight)
 
+    def renew(self) -> None:
+        """Forget what only saves work: steps from here on do not depend on how the state was reached."""
+        self._step = None
+
     def _prepared(self, duration: float) -> _Step:
         lengths = (duration, self.state.duration)
         if self._step is None or self._step.lengths != lengths:
@@ -192,7 +197,8 @@ class SmallTransient:
 
     def _convolution(self, modulus: Real) -> Convolution:
         """Return the surface of modes of some moduli."""
-        compliance = self._modes.surface(self._modes.reach / modulus) * self.block.column_width
+        yielding = (self._modes.reach / modulus).astype(complex)
+        compliance = self._modes.surface(yielding) * self.block.column_width
         compliance[0] = 0.0
         return Convolution(compliance, self.block.columns)
 
@@ -216,14 +222,14 @@ class SmallTransient:
             return np.ones(self.block.columns, dtype=bool)
         return touching
 
-    def snapshot(self) -> dict[str, Real]:
+    def snapshot(self) -> dict[str, Any]:
         """Return the state as arrays, from which ``restore`` goes on."""
         arrays = {part.name: np.asarray(getattr(self.state, part.name)) for part in dataclasses.fields(self.state)}
         return arrays | {"stored": np.asarray(self.stored)}
 
-    def restore(self, arrays: Mapping[str, Real]) -> None:
+    def restore(self, arrays: Mapping[str, Any]) -> None:
         """Take over the state of a snapshot of a block on the same mesh."""
-        given = {part.name: arrays[part.name] for part in dataclasses.fields(SmallState)}
+        given: dict[str, Any] = {part.name: arrays[part.name] for part in dataclasses.fields(SmallState)}
         for name in ("duration", "top", "offset", "pressure"):
             given[name] = float(given[name])
         self.state = SmallState(**given)
