@@ -31,9 +31,9 @@ def read(path: Path, label: str) -> dict[str, Real]:
         Where the file cannot be read, or has another label.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-    except (OSError, ValueError, zipfile.BadZipFile) as error:
+    except (OSError, EOFError, ValueError, TypeError, zipfile.BadZipFile) as error:
         raise BrokenResult(f"{path} cannot be read: {error}") from error
     found = str(arrays.pop(_LABEL, ""))
     if found != label:

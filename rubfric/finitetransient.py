@@ -21,8 +21,8 @@ from rubfric.finiteblock import Fields, FiniteBlock, Stressed
 from rubfric.finitehistory import Branches, FiniteState
 from rubfric.finitestrain import Inverted
 from rubfric.homogeneous import pressed
-from rubfric.marching import Outcome
 from rubfric.newton import Solved, Stalled, newton
+from rubfric.outcome import Outcome
 from rubfric.past import StepPast, convolve
 from rubfric.relaxation import Relaxation
 from rubfric.scene import Scene

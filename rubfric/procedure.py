@@ -43,8 +43,9 @@ class Procedure:
     wavelengths : int
         Wavelengths to slide at most, at full speed.
     saturation : float
-        Relative change of mean friction still to come below which friction counts as saturated and sliding ends;
-        0 slides all wavelengths.
+        Relative change of mean friction still to come below which friction counts as saturated.
+    until_saturated : bool
+        Whether sliding ends there, or after all wavelengths.
     """
 
     start: str = "pressed"
@@ -54,9 +55,10 @@ class Procedure:
     loading_steps: int = 32
     hold_steps: int = 16
     start_share: float = 0.25
-    steps_per_wavelength: int = 64
+    steps_per_wavelength: int = 128
     wavelengths: int = 40
     saturation: float = 0.005
+    until_saturated: bool = True
 
     def __post_init__(self) -> None:
         at = "procedure."

@@ -19,7 +19,7 @@ import numpy as np
 from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
 from rubfric.contact import MOST_STEPS, Contact, Convolution, pivot
-from rubfric.marching import Outcome
+from rubfric.outcome import Outcome
 from rubfric.relaxation import Relaxation
 from rubfric.scene import Scene
 from rubfric.surfacemodes import surface_modes
@@ -89,6 +89,9 @@ class SmallTransient:
         self._times = np.asarray(material.relaxation_times, dtype=float)
         self._relaxed = self._modes.modulus(material.long_term_shear_modulus, material.long_term_bulk_modulus)
         self._branches = self._modes.branch_moduli(material)
+        # Energy and dissipation weigh the squares of real and imaginary parts, which lie side by side.
+        self._spring = np.repeat(self._relaxed * self._modes.weight, 2)
+        self._viscosity = np.repeat(self._branches * self._modes.weight / self._times[:, None], 2, axis=1)
         self._step: _Step | None = None
         self.state = self.at_rest()
         self.stored = 0.0
@@ -161,8 +164,6 @@ class SmallTransient:
     def _outcome(self, old: SmallState, step: _Step, contact: Contact) -> Outcome:
         new, block = self.state, self.block
         before, self.stored = self.stored, self._stored(new)
-        square = step.relaxation.mean_square(old.behind, new.change, old.change)
-        lost = ((self._branches / self._times[:, None]) * square).sum(axis=0) @ self._modes.weight
         force = 0.5 * (old.contact + new.contact) * block.column_width
         slope = self.scene.road.slope(block.column_positions + new.offset)
         return Outcome(
@@ -171,7 +172,7 @@ class SmallTransient:
             load_work=-0.5 * (old.pressure + new.pressure) * block.width * (new.top - old.top),
             stored=self.stored,
             stored_change=self.stored - before,
-            dissipated=float(new.duration * lost),
+            dissipated=self._dissipated(old, step.relaxation),
             contact_fraction=float(np.count_nonzero(new.contact)) / block.columns,
             top=new.top,
             iterations=contact.iterations,
@@ -180,8 +181,21 @@ class SmallTransient:
 
     def _stored(self, state: SmallState) -> float:
         """Return the energy stored in the block, N mm per mm of thickness."""
-        springs = self._relaxed * _square(state.modes) + (self._branches * _square(state.behind)).sum(axis=0)
-        return float(0.5 * springs @ self._modes.weight)
+        modes, behind = state.modes.view(float), state.behind.view(float)
+        springs = np.einsum("bm,bm,bm->b", self._viscosity, behind, behind) @ self._times
+        return float(0.5 * (self._spring @ (modes * modes) + springs))
+
+    def _dissipated(self, old: SmallState, relaxation: Relaxation) -> float:
+        """Return what the last step dissipated, N mm per mm of thickness, exactly for coordinates on parabolas."""
+        start, change = old.behind.view(float), self.state.change.view(float)
+        bow = relaxation.bow(change, old.change.view(float))
+        weighed = self._viscosity * start
+        products = np.zeros((len(self._times), 3, 3))  # the upper half, twice off the diagonal
+        products[:, 0, 0] = np.einsum("bm,bm->b", weighed, start)
+        products[:, 0, 1], products[:, 0, 2] = 2.0 * weighed @ change, 2.0 * weighed @ bow
+        products[:, 1, 1], products[:, 2, 2] = self._viscosity @ (change * change), self._viscosity @ (bow * bow)
+        products[:, 1, 2] = 2.0 * self._viscosity @ (change * bow)
+        return float(relaxation.duration * np.sum(relaxation.gram * products))
 
     def renew(self) -> None:
         """Forget what only saves work: steps from here on do not depend on how the state was reached."""
@@ -234,7 +248,3 @@ class SmallTransient:
             given[name] = float(given[name])
         self.state = SmallState(**given)
         self.stored = float(arrays["stored"])
-
-
-def _square(amplitude: Complex) -> Real:
-    return amplitude.real**2 + amplitude.imag**2

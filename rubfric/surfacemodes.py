@@ -27,7 +27,7 @@ from rubfric.block import Block, RowOperator
 from rubfric.material import Material
 
 # Modes that add less than this share to the compliance of their harmonic are left out.
-_NOTHING = 1e-17
+_NOTHING = 1e-14
 
 
 @dataclass(frozen=True)

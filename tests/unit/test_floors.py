@@ -18,7 +18,7 @@ WORKFLOW = PACKAGE.parent / "workflow"
 FLOORS = [
     {"errors", "arrays", "atomic"},
     {"checks"},
-    {"material", "road", "choices", "relaxation", "marching", "checkpoint"},
+    {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
     {"folding", "cell", "finitestrain", "procedure", "saturation"},
@@ -31,6 +31,7 @@ FLOORS = [
     {"routes"},
     {"smallsteady", "finitesteady", "smalltransient", "finitetransient"},
     {"steady"},
+    {"marching"},
     {"transient"},
     {"smallenergy", "finiteenergy"},
     {"energy", "cautions", "scalars"},
