@@ -13,10 +13,10 @@ import numpy as np
 
 from rubfric import checks
 from rubfric.arrays import Real, Whole
+from rubfric.choices import STARTS
 from rubfric.errors import InvalidInput
 from rubfric.scene import Scene
 
-STARTS = ("pressed", "relaxed", "steady")
 PHASES = ("press", "hold", "start", "slide")
 # Loading time and hold by default, over the longest relaxation time of the rubber.
 _LOADING, _HOLD = 3.0, 3.0
