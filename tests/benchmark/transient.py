@@ -108,8 +108,8 @@ def main() -> None:
     finite_rows, finite = steps_per_second(campaign.scene(1, 100, 0.5, kinematics="finite"), 64, 1.055, 128)
     text = (
         f"{tables.markdown(rows)}\n\n"
-        f"Median {statistics.median(ratios):.0f}. Steps a second: {small:.0f} in small strain (128 x {small_rows} cells), "
-        f"{finite:.0f} in finite strain (64 x {finite_rows} cells). {tables.machine()}."
+        f"Median {statistics.median(ratios):.0f}. Steps a second: {small:.0f} in small strain (128 x {small_rows} "
+        f"cells), {finite:.0f} in finite strain (64 x {finite_rows} cells). {tables.machine()}."
     )
     print(text)
     tables.publish("transient", text)

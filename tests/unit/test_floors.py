@@ -36,7 +36,7 @@ FLOORS = [
     {"smallenergy", "finiteenergy"},
     {"energy", "cautions", "scalars"},
     {"dataset"},
-    {"simulation", "summary"},
+    {"simulation", "summary", "marchdata"},
     {"multiscale"},
     {"collection"},
     {"tables"},
