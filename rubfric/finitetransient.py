@@ -157,7 +157,7 @@ class FiniteTransient:
         problem = SlidingContact(finite, self._scale, self.scene.name)
         kept = self._circulant[1] if self._circulant is not None and self._circulant[0] == lengths else None
         road = self._road(pressure, offset)
-        solved = newton(problem, *self._guess(duration, offset, road), self._tolerance, kept, _WORTH)
+        solved = newton(problem, *self._guess(relaxation, road), self._tolerance, kept, _WORTH)
         try:
             outcome = self._commit(solved, relaxation, road)
         except Inverted as error:
@@ -172,15 +172,15 @@ class FiniteTransient:
     def _road(self, pressure: float, offset: float) -> Road:
         return Road(self.scene.road.amplitude, self.scene.road.wavenumber, pressure, offset)
 
-    def _guess(self, duration: float, offset: float, road: Road) -> tuple[Fields, Road, Flags]:
+    def _guess(self, relaxation: Relaxation, road: Road) -> tuple[Fields, Road, Flags]:
         """Return fields extrapolated in the frame of the road, the road, and the contact nodes moved with it."""
         state = self.state
-        moved = offset - state.offset
+        moved = road.offset - state.offset
         touching = np.roll(state.touching, -round(moved / self.block.column_width))
         fields = self._shifted(state.fields, moved)
-        if math.isfinite(state.duration):
+        if relaxation.follows:
             change = fields.moved(self._shifted(state.before, moved + state.advance), -1.0)
-            fields = fields.moved(change, duration / state.duration)
+            fields = fields.moved(change, relaxation.duration / relaxation.before)
         return fields, road, touching
 
     def _shifted(self, fields: Fields, distance: float) -> Fields:

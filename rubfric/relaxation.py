@@ -9,8 +9,9 @@ and w(x) = exp(-a x) w_0 + c(x) D + d(x) q with a = h / tau and
 
     c = (1 - exp(-a x)) / a,    d = 2 (x - c) / a - c.
 
-A straight line instead (q = 0: where nothing is known of the step before) puts the stress of a branch much faster than
-the step half a step behind: an error of first order. In finite strain e is -Cb^-1 and w is A - Cb^-1.
+A straight line instead (q = 0) puts the stress of a branch much faster than the step half a step behind: an error of
+first order. It is used where nothing is known of the step before, or where that was so short that it may have been a
+jump. In finite strain e is -Cb^-1 and w is A - Cb^-1.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ from rubfric.arrays import Complex, Real
 
 Numbers = TypeVar("Numbers", Real, Complex)
 
+# A step before that was shorter than this share of the step may have been a jump.
+_SHORTEST = 0.1
 # Below this a, differences of nearly equal numbers are taken from their series.
 _SMALL = 1e-2
 # Points of the quadrature that stands for exact integrals, and the power that gathers them at the begin of the step.
@@ -71,9 +74,14 @@ class Relaxation:
         return self.at(1.0)[2] * self._curved * self.duration / self.before
 
     @property
+    def follows(self) -> bool:
+        """Whether the step before tells how this one begins."""
+        return _SHORTEST * self.duration <= self.before < np.inf
+
+    @property
     def _curved(self) -> float:
-        """1 / (1 + r)."""
-        return 1.0 / (1.0 + self.before / self.duration)
+        """1 / (1 + r), or 0 for a straight line."""
+        return 1.0 / (1.0 + self.before / self.duration) if self.follows else 0.0
 
     def bow(self, change: Numbers, previous: Numbers) -> Numbers:
         """Return q from the changes D and P."""
