@@ -12,7 +12,7 @@ MARCH_FILES = [march_file(name) for name in MARCHES]
 
 rule march:
     input:
-        package_files("rubfric.marchdata"),
+        package_files("rubfric.marchdata", "rubfric.simulation"),
         script="workflow/scripts/march_scene.py",
     output:
         march_file("{scene}"),
