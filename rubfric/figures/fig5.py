@@ -23,7 +23,7 @@ from rubfric.figures.selection import described
 Array = NDArray[np.float64]
 
 _SERIES = ("slid", "phase", "friction_contact", "mean_friction")
-_SCALARS = ("steady_friction_coefficient", "saturated", "saturation_friction", "memory_wavelengths")
+_SCALARS = ("steady_friction_coefficient", "saturated", "memory_wavelengths")
 _ATTRIBUTES = ("velocity", "pressure", "scale", "aspect", "kinematics_used", "wavelength_mm", "steps_per_wavelength")
 # The phase in which the block begins to move; those before press it.
 _START = 2
@@ -31,7 +31,9 @@ _START = 2
 _FIRST = 0.05
 # Markers are no nearer to each other than this share of the panel's width.
 _APART = 0.035
-_STEPS: dict[str, Any] = {"linewidth": 0.8, "zorder": 2.0}
+# Lines of fast blocks wave more and lie below those of slow ones; in panel (b) they leave the means the say.
+_STEPS: dict[str, Any] = {"linewidth": 0.7, "zorder": 2.0}
+_PALE = 0.5
 _MEAN: dict[str, Any] = {"linestyle": "none", "markersize": 3.4, "zorder": 3.0}
 _STEADY: dict[str, Any] = {"linestyle": (0, (6, 3)), "linewidth": 0.6}
 _RING: dict[str, Any] = {
@@ -42,8 +44,10 @@ _RING: dict[str, Any] = {
     "markeredgewidth": 0.9,
     "clip_on": False,
 }
-# The size of type of the note, points, and the characters on one of its lines.
-_SMALL, _LINE = 6.0, 150
+# The size of type of the note, points, and the characters on one of its lines, which end before the legend.
+_SMALL, _LINE = 6.0, 135
+# In inches: the height of the panels with their labels, of a line of the legend, and of a line of the note.
+_HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.8, 0.14, 0.1
 
 
 @dataclass(frozen=True)
@@ -86,14 +90,15 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     results : sequence of xarray.Dataset
         Marches of one scale, pressure and height-to-width ratio, at one speed each, in any order. Over ``step``:
         ``slid`` (mm), ``phase`` and ``friction_contact``; over ``wavelength``: ``mean_friction``; and the scalars
-        ``steady_friction_coefficient``, ``saturated``, ``saturation_friction`` and ``memory_wavelengths``.
+        ``steady_friction_coefficient``, ``saturated`` and ``memory_wavelengths``.
 
     Returns
     -------
     matplotlib.figure.Figure
         Steps and wavelengths count from where the block begins to move. Dashes show the steady solver's value. Markers
         show means over a wavelength, all in panel (b) but those too near to another one, and the last in panel (a); a
-        ring around the last one tells that friction has saturated. The legend and the note tell where it has not.
+        ring around the last one tells that the mean has saturated, though friction may still wave about it. The legend
+        and the note tell where it has not.
 
     Raises
     ------
@@ -104,20 +109,22 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     ordered = sorted(results, key=lambda result: float(result.attrs["velocity"]))
     slides = [_slide(result) for result in ordered]
     looks = style.lines(len(slides))
-    figure = Figure(figsize=(style.DOUBLE_COLUMN, 3.0), layout="constrained")
+    handles, note = _handles(slides, looks), textwrap.wrap(_note(ordered, slides), _LINE)
+    lines = sum(1 + str(handle.get_label()).count("\n") for handle in handles)
+    height = max(_HEIGHT, _LEGEND_LINE * (lines + 2)) + _NOTE_LINE * len(note)
+    figure = Figure(figsize=(style.DOUBLE_COLUMN, height), layout="constrained")
     by_step, by_distance = axes = list(figure.subplots(1, 2, sharey=True))
     _scale(by_step, by_distance, slides)
-    for slide, look in zip(slides, looks, strict=True):
+    for slide, look in zip(slides[::-1], looks[::-1], strict=True):
         _draw_line(by_step, slide.steps, slide, look)
-        _draw_line(by_distance, slide.slid, slide, look)
+        _draw_line(by_distance, slide.slid, slide, look, alpha=_PALE)
         _draw_means(by_step, slide.mean_steps[-1:], slide, look)
         _draw_means(by_distance, slide.mean_slid, slide, look)
     panels.entitle(axes, ["step by step", "over the distance slid"])
     by_step.set(xlabel="time steps since the block began to move (-)", ylabel="friction coefficient (-)")
     by_distance.set_xlabel("distance slid (wavelengths)")
-    panels.legend_beside(figure, _handles(slides, looks), "sliding speed\n(mm/s)")
-    note = "\n".join(textwrap.wrap(_note(ordered, slides), _LINE))
-    figure.supxlabel(note, x=0.01, ha="left", multialignment="left", fontsize=_SMALL)
+    panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
+    figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL)
     return figure
 
 
@@ -152,14 +159,14 @@ def _slide(result: xr.Dataset) -> _Slide:
     means = result["mean_friction"].values
     # Full speed begins after the last step of the start.
     begin = int((result["phase"].values == _START).sum())
-    middles = np.arange(means.size) + 0.5
+    middles: Array = np.arange(0.5, means.size)
     return _Slide(
         speed=float(result.attrs["velocity"]),
         steps=steps,
         slid=slid,
         friction=result["friction_contact"].values[moving],
         mean_steps=begin + middles * int(result.attrs["steps_per_wavelength"]),
-        mean_slid=(slid[begin - 1] if begin else 0.0) + middles,
+        mean_slid=middles + (float(slid[begin - 1]) if begin else 0.0),
         means=means,
         steady=float(result["steady_friction_coefficient"]),
         saturated=bool(result["saturated"]),
@@ -183,8 +190,8 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
             panel.axhline(0.0, color="0.6", linewidth=0.5, zorder=0.5, gid="zero")
 
 
-def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any]) -> None:
-    panel.plot(places, slide.friction, color=look["color"], label=style.written(slide.speed), **_STEPS)
+def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any], alpha: float = 1.0) -> None:
+    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=style.written(slide.speed), **_STEPS)
     panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
 
 
@@ -218,7 +225,7 @@ def _handles(slides: Sequence[_Slide], looks: Sequence[dict[str, Any]]) -> list[
     if any(slide.means.size for slide in slides):
         handles.append(Line2D([], [], color="black", marker="o", label="mean over\na wavelength", **_MEAN))
     if any(slide.saturated for slide in slides):
-        handles.append(Line2D([], [], color="black", label="saturated", **_RING))
+        handles.append(Line2D([], [], color="black", label="mean saturated", **_RING))
     return handles
 
 
@@ -227,15 +234,16 @@ def _note(results: Sequence[xr.Dataset], slides: Sequence[_Slide]) -> str:
     block = _block(results[0])
     strains = " and ".join(sorted({str(result.attrs["kinematics_used"]) for result in results}))
     counts = sorted({int(result.attrs["steps_per_wavelength"]) for result in results})
-    steps = " to ".join(style.written(count) for count in (counts if len(counts) < 2 else (counts[0], counts[-1])))
+    steps = " to ".join(style.written(count) for count in sorted({counts[0], counts[-1]}))
     told = f"{block[0].upper()}{block[1:]}; {strains} strain; {steps} time steps to a wavelength at full speed."
     missing = [slide for slide in slides if not slide.saturated]
     if missing:
-        parts = (
-            f"{slide.memory:.2g} at {style.written(slide.speed)} mm/s, where {slide.means.size} were slid"
-            if slide.memory < 1.0
-            else f"{round(slide.memory):d} at {style.written(slide.speed)} mm/s, where {slide.means.size} were slid"
-            for slide in missing
-        )
-        told += f" Not saturated: the slowest branch of the rubber remembers {'; '.join(parts)}."
+        told += " Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
+        told += ", ".join(_remembered(slide) for slide in missing) + "."
     return told
+
+
+def _remembered(slide: _Slide) -> str:
+    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else style.written(round(slide.memory))
+    words = f"{slide.means.size} / {memory} at {style.written(slide.speed)} mm/s"
+    return words.replace(" ", "\N{NO-BREAK SPACE}")

@@ -77,7 +77,7 @@ def legend(figure: Figure) -> list[str]:
 
 
 def note(figure: Figure) -> str:
-    return figure.get_supxlabel().replace("\n", " ")
+    return figure.get_supxlabel().replace("\n", " ").replace("\N{NO-BREAK SPACE}", " ")
 
 
 def test_lines_begin_where_the_block_moves(series: Callable[..., Any]) -> None:
@@ -159,8 +159,8 @@ def test_figure_says_what_it_shows(words: Callable[..., list[str]]) -> None:
     ]
     assert note(figure) == (
         "Scale 1, pressure 0.5 MPa, height-to-width ratio 0.75; finite strain; 16 time steps to a wavelength at full "
-        "speed. Not saturated: the slowest branch of the rubber remembers 632 wavelengths at 10\N{NO-BREAK SPACE}000 "
-        "mm/s (slid at full speed: 30)."
+        "speed. Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
+        "30 / 632 at 10 000 mm/s."
     )
 
 
@@ -176,7 +176,7 @@ def test_one_result(saturated: bool, series: Callable[..., Any]) -> None:
     assert [len(series(panel)) for panel in figure.axes] == [1, 1]
     assert ("mean saturated" in legend(figure)) == saturated
     assert ("10\nnot saturated" in legend(figure)) != saturated
-    assert ("remembers 0.5 wavelengths at 10 mm/s" in note(figure)) != saturated
+    assert ("5 / 0.5 at 10 mm/s" in note(figure)) != saturated
 
 
 def test_every_value_lies_within_the_axes() -> None:
@@ -210,10 +210,11 @@ def test_without_a_whole_wavelength_there_is_no_mean() -> None:
     assert legend(figure) == ["10\nnot saturated", "steady sliding,\nsolved directly"]
 
 
-def test_nothing_is_written_over_anything_or_off_the_page(tmp_path: Path) -> None:
-    speeds = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)
+@pytest.mark.parametrize("count", [1, 7, 12])
+def test_nothing_is_written_over_anything_or_off_the_page(count: int, tmp_path: Path) -> None:
+    speeds = np.logspace(-1.0, 5.0, count).round(1)
     figure = fig5.draw([make_march(speed, 0.1, saturated=False, memory=speed) for speed in speeds])
-    style.save(figure, tmp_path / "fig5.png", tmp_path / "fig5.pdf")
+    style.save(figure, tmp_path / "fig5.pdf", tmp_path / "fig5.png")
     assert figure.get_figwidth() == style.DOUBLE_COLUMN
     page = figure.bbox
     below = next(text for text in figure.texts if text.get_text() == figure.get_supxlabel())
@@ -224,8 +225,8 @@ def test_nothing_is_written_over_anything_or_off_the_page(tmp_path: Path) -> Non
         assert box.y0 >= page.y0
         assert box.x1 <= page.x1
         assert box.y1 <= page.y1
-        # Tick labels at the ends of neighbouring panels may share a column of pixels.
-        assert not any(box.shrunk(0.99).overlaps(other) for other in boxes[:number])
+        # Boxes that touch by rounding to pixels do not overlap.
+        assert not any(box.padded(-2.0).overlaps(other) for other in boxes[:number])
 
 
 @pytest.mark.parametrize(
