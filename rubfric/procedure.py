@@ -43,7 +43,7 @@ class Procedure:
     wavelengths : int
         Wavelengths to slide at most, at full speed.
     saturation : float
-        Relative change of mean friction still to come below which friction counts as saturated.
+        Relative variation of friction, averaged over wavelengths, up to which it counts as saturated.
     until_saturated : bool
         Whether sliding ends there, or after all wavelengths.
     """

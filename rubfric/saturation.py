@@ -1,12 +1,13 @@
-"""Whether the friction of a march has settled: what the last wavelengths still changed, and what memory may still do.
+"""Whether the friction of a march has settled: by what it did over as long as the slowest branch remembers.
 
-Means over a wavelength that hardly differ do not prove saturation where the slowest branch remembers hundreds of
-wavelengths: it goes on by the same small change for as long. What is still to come is judged by the last change times
-the wavelengths that the slowest branch remembers, at least one.
+Means over a wavelength that hardly differ do not prove saturation where the slowest branch remembers many wavelengths:
+friction may turn, or go on by the same small change for as long. It counts as saturated when its means have stayed
+within the tolerance over the whole of that memory, tau v / lambda wavelengths, and at least over two wavelengths.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,36 +26,34 @@ class Saturation:
         Mean over the last wavelength, or NaN where none is whole.
     wavelengths : int
         Wavelengths slid at full speed.
-    change : float
-        Relative change of the mean from the last wavelength but one, NaN where there is none.
-    to_come : float
-        Estimate of the relative change still to come.
-    memory : float
-        Wavelengths that the slowest branch remembers, tau v / lambda.
+    needed : int
+        Wavelengths over which friction has to stay the same.
+    variation : float
+        Largest difference between means over so many wavelengths, or all there are, over the last of them.
     reached : bool
-        Whether what is still to come is within the tolerance.
+        Whether there are as many, and they differ by no more than the tolerance.
     """
 
     friction: float
     wavelengths: int
-    change: float
-    to_come: float
-    memory: float
+    needed: int
+    variation: float
     reached: bool
 
     def __str__(self) -> str:
         found = f"friction {self.friction:.5g} after {self.wavelengths} wavelengths"
-        last = f"the last changed it by {self.change:.2%}, and the slowest branch remembers {self.memory:.3g}"
-        return f"{found}: {'saturated' if self.reached else 'NOT saturated'} ({last})"
+        seen = f"it varied by {self.variation:.2%} over the last {min(self.wavelengths, self.needed)}"
+        if self.reached:
+            return f"{found}: saturated ({seen})"
+        return f"{found}: NOT saturated ({seen}; the slowest branch remembers {self.needed - 1})"
 
 
 def judge(scene: Scene, means: Real, tolerance: float) -> Saturation:
     """Judge the means of friction over the wavelengths of a march, shape (wavelengths,)."""
     memory = max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
-    friction = float(means[-1]) if len(means) else np.nan
-    change = np.nan
-    if len(means) > 1:
-        scale = max(abs(friction), np.finfo(float).tiny)
-        change = abs(friction - float(means[-2])) / scale
-    to_come = change * max(1.0, memory)
-    return Saturation(friction, len(means), change, to_come, memory, bool(to_come <= tolerance))
+    needed = max(1, math.ceil(memory)) + 1
+    if not len(means):
+        return Saturation(math.nan, 0, needed, math.nan, False)
+    friction = float(means[-1])
+    variation = float(np.ptp(means[-needed:])) / max(abs(friction), float(np.finfo(float).tiny))
+    return Saturation(friction, len(means), needed, variation, len(means) >= needed and variation <= tolerance)

@@ -136,8 +136,8 @@ def test_start_from_steady_sliding_goes_on_so(soft_scene: SceneMaker, kinematics
     procedure = Procedure(start="steady", columns=16, steps_per_wavelength=32, wavelengths=2, until_saturated=False)
     march = marched(soft_scene(kinematics, plane), procedure)
     first, last = wavelength_means(march.records["friction_contact"], 32)
-    assert last == pytest.approx(first, rel=0.01)
-    assert last > 0.05
+    assert last == pytest.approx(first, rel=0.03)
+    assert last > 0.01
 
 
 def outcome(**changes: float) -> Outcome:

@@ -79,12 +79,13 @@ def test_steady_sliding_in_small_strain_goes_on_so_at_high_speed(
 
 
 @PLANES
-@pytest.mark.parametrize(("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), (10.0, 0.5, 4)])
+@pytest.mark.parametrize(("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), (10.0, 0.5, 3)])
 def test_pressed_and_slid_in_finite_strain(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float, wavelengths: int
 ) -> None:
-    scene = scene_of(paper_scene, 32, 1.3, velocity, pressure, plane=plane, kinematics="finite")
-    assert mean(scene, "pressed", 32, 32, wavelengths) == pytest.approx(steady(scene), rel=0.015)
+    # On 32 columns already the place of the nodes on the road would change friction by 2 %.
+    scene = scene_of(paper_scene, 64, 1.3, velocity, pressure, plane=plane, kinematics="finite")
+    assert mean(scene, "pressed", 64, 64, wavelengths) == pytest.approx(steady(scene), rel=0.01)
 
 
 @PLANES
@@ -92,8 +93,8 @@ def test_pressed_and_slid_in_finite_strain(
 def test_steady_sliding_in_finite_strain_goes_on_so(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float
 ) -> None:
-    scene = scene_of(paper_scene, 32, 1.3, velocity, pressure, plane=plane, kinematics="finite")
-    assert mean(scene, "steady", 32, 64, 2) == pytest.approx(steady(scene), rel=0.015)
+    scene = scene_of(paper_scene, 64, 1.3, velocity, pressure, plane=plane, kinematics="finite")
+    assert mean(scene, "steady", 64, 64, 2) == pytest.approx(steady(scene), rel=0.01)
 
 
 @PLANES
