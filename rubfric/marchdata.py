@@ -13,6 +13,7 @@ import rubfric
 from rubfric.dataset import CONVENTIONS, PAPER
 from rubfric.procedure import PHASES
 from rubfric.scalars import attributes
+from rubfric.scene import Scene
 from rubfric.transient import Transient
 
 # record: (unit, long name)
@@ -36,10 +37,11 @@ RECORDS: dict[str, tuple[str, str]] = {
     "halvings": ("1", "how often the step was halved"),
 }
 _SCALARS: dict[str, tuple[str, str]] = {
-    "saturated": ("1", "1 where what friction may still change by is within the tolerance, else 0"),
+    "saturated": ("1", "1 where friction stayed within the tolerance for as long as the rubber remembers, else 0"),
     "saturation_friction": ("1", "friction coefficient, mean over the last wavelength"),
     "saturation_wavelengths": ("1", "wavelengths slid at full speed"),
-    "saturation_to_come": ("1", "estimated relative change of friction still to come"),
+    "saturation_needed": ("1", "wavelengths over which friction has to stay the same"),
+    "saturation_variation": ("1", "relative variation of friction over as many wavelengths, or over all there are"),
     "memory_wavelengths": ("1", "wavelengths that the slowest Prony branch remembers"),
     "first_law_imbalance": ("1", "what the first law misses at full speed over the work of the road"),
     "steady_friction_coefficient": ("1", "friction coefficient of steady sliding, solved directly"),
@@ -86,12 +88,18 @@ def _values(march: Transient, steady_friction: float) -> dict[str, float | int]:
         "saturated": int(found.reached),
         "saturation_friction": found.friction,
         "saturation_wavelengths": found.wavelengths,
-        "saturation_to_come": found.to_come,
-        "memory_wavelengths": found.memory,
+        "saturation_needed": found.needed,
+        "saturation_variation": found.variation,
+        "memory_wavelengths": _memory(march.scene),
         "first_law_imbalance": march.imbalance,
         "steady_friction_coefficient": steady_friction,
         "wall_time": march.seconds,
     }
+
+
+def _memory(scene: Scene) -> float:
+    """Return the wavelengths that the slowest branch remembers, tau v / lambda."""
+    return max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
 
 
 def _provenance(march: Transient) -> dict[str, Any]:
