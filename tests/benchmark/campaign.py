@@ -145,6 +145,7 @@ def main() -> None:
     whole, scenes, marches, touching, figures = (statistics.median(times) for times in zip(*rounds, strict=True))
     floor = (scenes + marches) / 2.0 + touching + figures
     ratios = sorted(each[0] / ((each[1] + each[2]) / 2.0 + each[3] + each[4]) for each in rounds)
+    what = f"{len(campaign.scenes())} scenes, {len(campaign.marches())}"
     rows: list[tuple[str, ...]] = [
         ("default campaign, `snakemake -j2`", "wall time"),
         (
