@@ -30,6 +30,7 @@ check: $(VENV)/.ready
 bench: $(VENV)/.ready
 	python tests/benchmark/scenes.py
 	python tests/benchmark/campaign.py
+	python tests/benchmark/transient.py
 
 format: $(VENV)/.ready
 	ruff check --fix .

@@ -26,6 +26,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/scenes.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/transient.smk"
 
 
 rule all:
@@ -34,6 +35,7 @@ rule all:
         SCENE_FILES,
         TABLES,
         FIGURES,
+        rules.march_figure.output,
 
 
 onstart:

@@ -15,7 +15,15 @@ from typing import Any
 import yaml
 
 from rubfric import checks
-from rubfric.choices import AspectStudy, FigureChoice, read_aspect_study, read_figures, scale_number
+from rubfric.choices import (
+    AspectStudy,
+    FigureChoice,
+    TransientChoice,
+    read_aspect_study,
+    read_figures,
+    read_transient,
+    scale_number,
+)
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.road import SineScale, scales_from_config
@@ -23,7 +31,7 @@ from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "figures", "numerics", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "numerics", "rubbers", "roads"),
 )
 
 
@@ -52,6 +60,7 @@ class Campaign:
     aspect : float
         Height over width of the grid's blocks.
     aspect_study : AspectStudy
+    transient : TransientChoice
     figures : FigureChoice
     numerics : Numerics
     """
@@ -66,6 +75,7 @@ class Campaign:
     pressures: tuple[float, ...]
     aspect: float
     aspect_study: AspectStudy
+    transient: TransientChoice
     figures: FigureChoice
     numerics: Numerics
 
@@ -91,6 +101,7 @@ class Campaign:
             pressures=pressures,
             aspect=checks.positive("grid.aspect", grid["aspect"]),
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
+            transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
             numerics=_read_numerics(config["numerics"]),
         )
@@ -149,6 +160,12 @@ class Campaign:
         study = self.aspect_study
         for scale, velocity, pressure, aspect in product(study.scales, self.velocities, study.pressures, study.aspects):
             yield self.scene(scale, velocity, pressure, aspect)
+
+    def marches(self) -> dict[str, Scene]:
+        """Return the scenes that are marched in time, by name."""
+        chosen = self.transient
+        scenes = (self.scene(chosen.scale, velocity, chosen.pressure) for velocity in chosen.velocities)
+        return {scene.name: scene for scene in scenes}
 
     def field_scenes(self) -> dict[str, Scene]:
         """Return the scenes whose fields are drawn, by name; pressure by pressure."""

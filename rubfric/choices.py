@@ -1,12 +1,15 @@
-"""What a config chooses out of its campaign: a study of height-to-width ratios, and what the figures show."""
+"""What a config chooses out of its campaign: a study of ratios, marches in time, and what the figures show."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from rubfric import checks
 from rubfric.errors import InvalidInput
+
+# What a march begins with: pressing in time, infinitely slow pressing, or steady sliding.
+STARTS = ("pressed", "relaxed", "steady")
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,27 @@ class FigureChoice:
     scale: int
     velocities: tuple[float, ...]
     pressures: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class TransientChoice:
+    """The marches in time: a scale, speeds (mm/s) and a pressure (MPa), and how they are marched.
+
+    The rest is as in ``rubfric.procedure.Procedure``.
+    """
+
+    scale: int
+    velocities: tuple[float, ...]
+    pressure: float
+    start: str
+    columns: int
+    steps_per_wavelength: int
+    wavelengths: int
+    saturation: float
+
+    def procedure(self) -> dict[str, Any]:
+        """Return the arguments of a ``rubfric.procedure.Procedure``."""
+        return {name: value for name, value in asdict(self).items() if name not in ("scale", "velocities", "pressure")}
 
 
 def scale_number(key: str, value: Any, scales: int) -> int:
@@ -67,3 +91,20 @@ def _subset(key: str, values: tuple[float, ...], whole: str, allowed: tuple[floa
         if value not in allowed:
             known = ", ".join(checks.written(number) for number in allowed)
             raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from {whole}: {known}")
+
+
+def read_transient(entry: Any, scales: int) -> TransientChoice:
+    """Read and check the key ``transient`` of a config."""
+    keys = tuple(field.name for field in fields(TransientChoice))
+    checks.known_keys("transient", entry, keys, keys)
+    saturation = checks.at_least("transient.saturation", entry["saturation"], 1e-6)
+    return TransientChoice(
+        scale=scale_number("transient.scale", entry["scale"], scales),
+        velocities=checks.grid("transient.velocities", entry["velocities"], "mm/s"),
+        pressure=checks.positive("transient.pressure", entry["pressure"], "MPa"),
+        start=checks.one_of("transient.start", entry["start"], STARTS),
+        columns=checks.multiple("transient.columns", entry["columns"], 8),
+        steps_per_wavelength=checks.whole("transient.steps_per_wavelength", entry["steps_per_wavelength"], 4),
+        wavelengths=checks.whole("transient.wavelengths", entry["wavelengths"], 1),
+        saturation=checks.at_most("transient.saturation", saturation, 0.5),
+    )

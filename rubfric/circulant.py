@@ -4,8 +4,9 @@ Averaged along the road, the tangent of a deformed block is block circulant: one
 with the complex moduli of its frequency. It is exact for a block pressed on a flat road, and close enough for
 one on a rough road that a handful of Krylov iterations make up the difference.
 
-Harmonics are those of the real Fourier transform, 0 to columns / 2. The mean displacement of the surface is held:
-what the block rises by follows from the load, and where along the road it is does not matter in steady sliding.
+Harmonics are those of the real Fourier transform, 0 to columns / 2. The mean u_y of the surface is held: what the block
+rises by follows from the load. So is its mean u_x in steady sliding, where it does not matter where along the road
+the block is; where that matters, its top is held.
 """
 
 from __future__ import annotations
@@ -95,7 +96,8 @@ class Circulant:
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
         self.compliance[..., -1] = self.compliance[..., -1].real
-        self.compliance[..., 0] = self._surface[:, 0] = 0.0
+        if not finite.past.anchored:
+            self.compliance[..., 0] = self._surface[:, 0] = 0.0
 
     def load(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> Load:
         """Return the load of nodal forces, N per mm, of stresses C_zz S_zz, MPa, and of an excess of volume."""
@@ -112,7 +114,7 @@ class Circulant:
         return Load(force, thickness, volume)
 
     def surface(self, load: Load) -> Real:
-        """Return u_x and u_y at the surface, mm, shape (2, columns), without their means."""
+        """Return u_x and u_y at the surface, mm, shape (2, columns), without the means that are held."""
         force = np.where(self._held(), 0.0, load.force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = np.einsum("cnj,nj->cn", self._surface.reshape(2, self._harmonics, -1), force)
         answer: Real = fft.irfft(spectrum, self._finite.block.columns, axis=-1)
@@ -124,7 +126,8 @@ class Circulant:
         force[:, 0] += fft.rfft(contact, axis=-1)
         ordered = np.where(self._held(), 0.0, force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = self._solve(ordered).transpose(2, 1, 0)
-        spectrum[0, :, 0] -= spectrum[0, 0, 0]
+        if not self._finite.past.anchored:
+            spectrum[0, :, 0] -= spectrum[0, 0, 0]
         corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
         volume = load.volume + (self._dilatation * corners).sum(axis=0)
         thickness = load.thickness

@@ -1,4 +1,4 @@
-"""One scene from the shell: ``rubfric simulate``."""
+"""One scene from the shell: ``rubfric simulate``, sliding steadily, and ``rubfric march``, step by step."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from pathlib import Path
 
 import rubfric
 from rubfric import campaign as campaigns
+from rubfric.choices import STARTS
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.material import PLANES
-from rubfric.scene import KINEMATICS
+from rubfric.scene import KINEMATICS, Scene
 
 _EXAMPLE = """\
 example:
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --aspect 0.75
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
+  rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
 
 The rubber, the road and the numerics come from config/config.yaml, and what --config lays over it.
 For whole campaigns run snakemake in the project's folder.
@@ -55,37 +57,67 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    simulate.add_argument("--scale", type=int, required=True, help="scale of the road, 1 being the coarsest")
-    simulate.add_argument("--velocity", type=float, required=True, metavar="V", help="sliding speed, mm/s")
-    simulate.add_argument("--pressure", type=float, required=True, metavar="P", help="nominal pressure, MPa")
-    simulate.add_argument(
+    _add_scene(simulate)
+    simulate.set_defaults(run=_simulate)
+    march = commands.add_parser(
+        "march",
+        help="press one block and slide it step by step until its friction has settled",
+        description="Press a rubber block onto one scale of the road and slide it, step by step in time.",
+        epilog=_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    _add_scene(march)
+    march.add_argument("--start", choices=STARTS, help="what to begin with (default: the config's)")
+    for name, what in (
+        ("columns", "columns of cells along one wavelength, a multiple of 8"),
+        ("steps-per-wavelength", "steps of time in which the road goes past by a wavelength"),
+        ("wavelengths", "wavelengths to slide at most"),
+    ):
+        march.add_argument(f"--{name}", type=int, metavar="N", help=f"{what} (default: the config's)")
+    march.add_argument(
+        "--restart", type=Path, metavar="FILE", help="go on from this file where it exists, and leave the state in it"
+    )
+    march.set_defaults(run=_march)
+    return parser
+
+
+def _add_scene(command: argparse.ArgumentParser) -> None:
+    """Add the arguments that name a scene, the configs it comes from, and the file to write."""
+    command.add_argument("--scale", type=int, required=True, help="scale of the road, 1 being the coarsest")
+    command.add_argument("--velocity", type=float, required=True, metavar="V", help="sliding speed, mm/s")
+    command.add_argument("--pressure", type=float, required=True, metavar="P", help="nominal pressure, MPa")
+    command.add_argument(
         "--aspect", type=float, metavar="R", help="height of the block over its width (default: the config's)"
     )
-    simulate.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
-    simulate.add_argument(
+    command.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
+    command.add_argument(
         "--kinematics",
         choices=KINEMATICS,
         help="small or finite strain, or what the scene needs (default: the config's)",
     )
-    simulate.add_argument(
+    command.add_argument(
         "--config",
         action="append",
         type=Path,
         metavar="FILE",
         help="YAML config to lay over config/config.yaml, with another rubber, say; may be given again",
     )
-    simulate.add_argument("--output", type=Path, metavar="FILE", help="write fields and scalars to this netCDF file")
-    simulate.set_defaults(run=_simulate)
-    return parser
+    command.add_argument("--output", type=Path, metavar="FILE", help="write fields and scalars to this netCDF file")
 
 
-def _simulate(options: argparse.Namespace) -> int:
+def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
+    """Return the campaign and the scene that the options name."""
     campaign = campaigns.load(*_configs(options.config or []))
     scene = campaign.scene(
         options.scale, options.velocity, options.pressure, options.aspect, options.plane, options.kinematics
     )
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
+    return campaign, scene
+
+
+def _simulate(options: argparse.Namespace) -> int:
+    _, scene = _read(options)
     from rubfric.dataset import write  # heavy: only once the input is known to be right
     from rubfric.simulation import simulate
     from rubfric.summary import summary
@@ -94,6 +126,27 @@ def _simulate(options: argparse.Namespace) -> int:
     print(summary(result))
     if options.output:
         write(result, options.output)
+        print(f"\nWritten to {options.output}")
+    return 0
+
+
+def _march(options: argparse.Namespace) -> int:
+    campaign, scene = _read(options)
+    arguments = campaign.transient.procedure()
+    names = ("start", "columns", "steps_per_wavelength", "wavelengths")
+    arguments |= {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    from rubfric.dataset import write  # heavy: only once the input is known to be right
+    from rubfric.marchdata import build
+    from rubfric.procedure import Procedure
+    from rubfric.simulation import simulate
+    from rubfric.transient import march
+
+    procedure = Procedure(**arguments)
+    steady = float(simulate(scene)["friction_coefficient"])
+    found = march(scene, procedure, progress=lambda line: print(line, flush=True), restart=options.restart)
+    print(f"{found.saturation}\nsteady sliding, solved directly: {steady:.5g}")
+    if options.output:
+        write(build(found, steady), options.output)
         print(f"\nWritten to {options.output}")
     return 0
 

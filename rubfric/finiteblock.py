@@ -1,8 +1,9 @@
-"""The block in finite strain, sliding steadily: forces and stiffness on the mesh, the past by convolution.
+"""The block in finite strain: forces and stiffness on the mesh, in steady sliding or at the end of a step of time.
 
-In the frame of the road every field is f(xi, Y) with xi = X + v t, and material lines Y = const are straight in
-the reference configuration. The past of a point is therefore the row of points upstream of it, and the branch
-tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency n k v.
+In steady sliding every field is f(xi, Y) with xi = X + v t in the frame of the road, and material lines Y = const are
+straight in the reference configuration. The past of a point is therefore the row of points upstream of it, and the
+branch tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency
+n k v. In a step of time they are a number times the state sought, and what is left of the state before.
 
 The volume ratio is an unknown of its own, tied to the deformation by an equation of its own. Eliminated, it would
 make the tangent as stiff as the bulk modulus along directions that turn with the deformation; kept, it leaves
@@ -11,15 +12,16 @@ Newton's method and Krylov iterations the same work for any Poisson's ratio up t
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
 
 from rubfric.arrays import Complex, Real
 from rubfric.block import Block
 from rubfric.finitestrain import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
 from rubfric.material import Material
+from rubfric.past import Past, SteadyPast, convolve
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,7 @@ class Stiffness:
 
 
 class FiniteBlock:
-    """A meshed block of one rubber at one sliding speed.
+    """A meshed block of one rubber at one sliding speed; sliding steadily unless another past is given to it.
 
     Plane stress integrates dilatation pointwise; plane strain by its mean over each cell, where the pointwise form
     would lock.
@@ -110,20 +112,28 @@ class FiniteBlock:
         weighed = gradients * self.quadrature.weights[:, :, None, None]
         self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
         self.frequencies = 2.0 * np.pi / block.width * velocity * block.harmonics
-        self.shear_kernel = self._kernel(material.complex_shear_modulus(self.frequencies))
-        self.bulk_kernel = self._kernel(material.complex_bulk_modulus(self.frequencies))
-        self.bulk_relaxes = bool(material.branch_bulk_moduli.any())
+        self.past: Past = SteadyPast(material, self.frequencies)
+
+    def remembering(self, past: Past) -> FiniteBlock:
+        """Return the same block with another past."""
+        other = copy.copy(self)
+        other.past = past
+        return other
+
+    @property
+    def shear_kernel(self) -> Complex:
+        """What the past adds to the long-term shear modulus of the harmonics, MPa, shape (n,)."""
+        return self.past.shear_kernel
+
+    @property
+    def bulk_kernel(self) -> Complex:
+        """What the past adds to the long-term bulk modulus of the harmonics, MPa, shape (n,)."""
+        return self.past.bulk_kernel
 
     @property
     def unknowns(self) -> int:
         """Unknowns at a point: 5 in plane stress, 4 in plane strain."""
         return 5 if self.block.plane == "stress" else 4
-
-    def _kernel(self, modulus: Complex) -> Complex:
-        """Return what a modulus adds to its long-term value; the last harmonic is its own conjugate."""
-        kernel = modulus - modulus[0].real
-        kernel[-1] = kernel[-1].real
-        return kernel
 
     def at_rest(self) -> Fields:
         """Return the fields of the block as it was made."""
@@ -174,11 +184,11 @@ class FiniteBlock:
         gradient[0] += 1.0
         gradient[3] += 1.0
         state = deform(gradient, fields.log_thickness)
-        driving = -self.convolve(self.shear_kernel, state.inverse)
+        driving = self.past.remembered_driving - self.past.shear(state.inverse)
         driving[[0, 1, 3]] += self.material.long_term_shear_modulus
         volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
-        if self.bulk_relaxes:
-            volumetric = volumetric + self.convolve(self.bulk_kernel, fields.volume)
+        if self.past.bulk_relaxes:
+            volumetric = volumetric + self.past.bulk(fields.volume) + self.past.remembered_pressure
         excess = fields.volume - self.dilatation(state.volume)
         return Stressed(state, driving, volumetric, stress(state, driving, volumetric), excess)
 
@@ -191,10 +201,10 @@ class FiniteBlock:
         """Return the change of the stresses, MPa, and of the volume's excess under a small step."""
         points = stiffness.points
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
-        driving = -self.convolve(self.shear_kernel, _apply(points.inverse, change))
+        driving = -self.past.shear(_apply(points.inverse, change))
         volumetric = stiffness.curvature * step.volume
-        if self.bulk_relaxes:
-            volumetric = volumetric + self.convolve(self.bulk_kernel, step.volume)
+        if self.past.bulk_relaxes:
+            volumetric = volumetric + self.past.bulk(step.volume)
         answer = _apply(points.local, change)
         answer += _apply(points.by_driving, driving)
         answer += points.volume * volumetric
@@ -214,10 +224,7 @@ class FiniteBlock:
 
     def convolve(self, kernel: Complex, field: Real) -> Real:
         """Return the convolution along the road of a field with a kernel given by its harmonics."""
-        spectrum = fft.rfft(field, axis=-1)
-        spectrum *= kernel
-        answer: Real = fft.irfft(spectrum, field.shape[-1], axis=-1, overwrite_x=True)
-        return answer
+        return convolve(kernel, field)
 
 
 def _apply(matrix: Real, vector: Real) -> Real:

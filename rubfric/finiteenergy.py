@@ -14,9 +14,10 @@ from __future__ import annotations
 import numpy as np
 
 from rubfric.arrays import Complex, Real
+from rubfric.branches import elongation, excess, trace
 from rubfric.finiteblock import FiniteBlock
 from rubfric.finitesteady import FiniteSolution
-from rubfric.finitestrain import XX, XY, YY, ZZ, Deformation, volumetric_energy
+from rubfric.finitestrain import Deformation, volumetric_energy
 from rubfric.routes import Energies, output_stride, rows_to_nodes
 
 
@@ -44,7 +45,7 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
     squared, inverse = state.isochoric_squared, state.inverse
     volume = np.broadcast_to(finite.dilatation(state.volume), state.volume.shape)
     stored = volumetric_energy(material.long_term_bulk_modulus, volume)
-    stored = stored + 0.5 * material.long_term_shear_modulus * (_trace(squared) - 3.0)
+    stored = stored + 0.5 * material.long_term_shear_modulus * (trace(squared) - 3.0)
     lost = np.zeros_like(stored)
     branches = zip(
         material.branch_shear_moduli,
@@ -55,9 +56,8 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
     )
     for shear, bulk, transfer, time in branches:
         behind = -finite.convolve(transfer, inverse)  # A_i - Cb^-1, without cancellation
-        branch = inverse + behind
-        lost += shear / (2.0 * time) * _excess(behind, squared, branch)
-        stored += 0.5 * shear * (_contract(branch, squared) - np.log(_determinant(branch)) - 3.0)
+        lost += shear / (2.0 * time) * excess(behind, squared, inverse)
+        stored += 0.5 * shear * elongation(behind, squared, inverse)
         if bulk:
             stretched = finite.convolve(transfer, volume)
             lost += bulk / time * stretched * stretched
@@ -75,41 +75,6 @@ def _transfers(finite: FiniteBlock) -> Complex:
     transfers = finite.material.branch_transfer(finite.frequencies)
     transfers[:, -1] = transfers[:, -1].real
     return transfers
-
-
-def _excess(behind: Real, squared: Real, branch: Real) -> Real:
-    """Return A : Cb + A^-1 : Cb^-1 - 6 as the trace of (D Cb) (D A^-1), D = A - Cb^-1, which does not cancel."""
-    determinant = branch[XX] * branch[YY] - branch[XY] * branch[XY]
-    one = _product(behind, squared)
-    other = _product(behind, (branch[YY], branch[XX], -branch[XY]))
-    plane = one[0] * other[0] + one[1] * other[2] + one[2] * other[1] + one[3] * other[3]
-    excess: Real = plane / determinant + behind[ZZ] * behind[ZZ] * squared[ZZ] / branch[ZZ]
-    return excess
-
-
-def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Real, Real]:
-    """Return the in-plane product of two symmetric tensors: its components xx, xy, yx, yy."""
-    return (
-        one[XX] * other[XX] + one[XY] * other[XY],
-        one[XX] * other[XY] + one[XY] * other[YY],
-        one[XY] * other[XX] + one[YY] * other[XY],
-        one[XY] * other[XY] + one[YY] * other[YY],
-    )
-
-
-def _trace(tensor: Real) -> Real:
-    trace: Real = tensor[XX] + tensor[YY] + tensor[ZZ]
-    return trace
-
-
-def _contract(one: Real, other: Real) -> Real:
-    total: Real = one[XX] * other[XX] + one[YY] * other[YY] + 2.0 * one[XY] * other[XY] + one[ZZ] * other[ZZ]
-    return total
-
-
-def _determinant(tensor: Real) -> Real:
-    determinant: Real = (tensor[XX] * tensor[YY] - tensor[XY] * tensor[XY]) * tensor[ZZ]
-    return determinant
 
 
 def nodal_density(finite: FiniteBlock, density: Real) -> Real:

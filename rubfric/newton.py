@@ -19,7 +19,7 @@ from rubfric.finitestrain import Inverted
 from rubfric.slidingcontact import Correction, Linearised, Road, SlidingContact
 
 _MOST_STEPS = 16
-# A direction that took more Krylov iterations is worth a new average of the tangent.
+# A direction that took more Krylov iterations is worth a new average of the tangent, unless told otherwise.
 _WORTH = 6
 _MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
@@ -56,12 +56,15 @@ class Solved:
         Size of u - T(u) before each Newton step, and at the end.
     krylov : int
         Applications of the tangent.
+    circulant : Circulant
+        The averaged tangent last used.
     """
 
     fields: Fields
     correction: Correction
     residuals: tuple[float, ...]
     krylov: int
+    circulant: Circulant
 
     @property
     def steps(self) -> int:
@@ -69,13 +72,25 @@ class Solved:
         return len(self.residuals) - 1
 
 
-def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, tolerance: float) -> Solved:
+def newton(
+    problem: SlidingContact,
+    start: Fields,
+    road: Road,
+    touching: Flags,
+    tolerance: float,
+    circulant: Circulant | None = None,
+    worth: int = _WORTH,
+) -> Solved:
     """Solve the contact from some fields and a first guess of the contact nodes.
 
     Parameters
     ----------
     tolerance : float
         Size of u - T(u), as ``SlidingContact.size`` measures it, at which to stop.
+    circulant : Circulant, optional
+        An averaged tangent to begin with.
+    worth : int
+        A direction that took more Krylov iterations is followed by a new average of the tangent.
 
     Raises
     ------
@@ -83,25 +98,24 @@ def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, 
         Where the residual no longer falls, a point is turned inside out, or the linearised contact has no solution.
     """
     residuals: list[float] = []
-    fields, circulant, krylov = start, None, 0
+    fields, correction, krylov = start, None, 0
     while True:
         steps = max(0, len(residuals) - 1)
         try:
             if circulant is None:
-                state = problem.finite.stressed(fields)
-                stiffness = problem.finite.stiffness(fields, state)
-                circulant = Circulant(problem.finite, stiffness, road.pressure)
+                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
+                circulant, correction = Circulant(problem.finite, average, road.pressure), None
+            if correction is None:
                 correction = problem.correct(circulant, fields, road, touching)
-            else:
-                stiffness = problem.finite.stiffness(fields, correction.state)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
             raise Stalled(str(error), steps, krylov, residuals[-1] if residuals else np.inf) from error
         size = problem.size(correction.step)
         residuals.append(size)
         if size <= tolerance:
-            return Solved(fields, correction, tuple(residuals), krylov)
+            return Solved(fields, correction, tuple(residuals), krylov, circulant)
         if len(residuals) > _MOST_STEPS:
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
+        stiffness = problem.finite.stiffness(fields, correction.state)
         linear = Linearised(problem, circulant, stiffness, correction, road)
         direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
         krylov += count
@@ -110,7 +124,7 @@ def newton(problem: SlidingContact, start: Fields, road: Road, touching: Flags, 
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
         fields, correction = ahead
         touching = correction.contact.touching
-        if count > _WORTH and problem.size(correction.step) > tolerance:
+        if count > worth and problem.size(correction.step) > tolerance:
             circulant = None
 
 

@@ -28,19 +28,23 @@ _MOST_PIVOTS = 100
 
 @dataclass(frozen=True)
 class Road:
-    """The road and the load on it, which continuation may vary: amplitude a, mm; wavenumber k, 1/mm; p, MPa."""
+    """The road and the load on it: amplitude a, mm; wavenumber k, 1/mm; p, MPa; how far it has gone past, mm.
+
+    Positions are those of the block, which stays where it is while the road goes past.
+    """
 
     amplitude: float
     wavenumber: float
     pressure: float
+    offset: float = 0.0
 
     def height(self, position: Real) -> Real:
         """Return s(x), mm."""
-        return self.amplitude * np.sin(self.wavenumber * position)
+        return self.amplitude * np.sin(self.wavenumber * (position + self.offset))
 
     def slope(self, position: Real) -> Real:
         """Return s'(x)."""
-        return self.amplitude * self.wavenumber * np.cos(self.wavenumber * position)
+        return self.amplitude * self.wavenumber * np.cos(self.wavenumber * (position + self.offset))
 
     def curvature(self, position: Real) -> Real:
         """Return s''(x), 1/mm."""

@@ -85,7 +85,7 @@ def test_schema_is_valid() -> None:
 
 def test_every_object_is_closed_or_describes_its_entries() -> None:
     objects = {at: node for at, node in nodes(SCHEMA) if node.get("type") == "object"}
-    assert len(objects) == 10
+    assert len(objects) == 11
     assert all("additionalProperties" in node for node in objects.values())
     assert all(node["additionalProperties"] is False for node in objects.values() if "properties" in node)
     assert all(isinstance(node["additionalProperties"], dict) for node in objects.values() if "properties" not in node)

@@ -7,7 +7,7 @@ import sys
 
 from project_copy import Plan, Project
 
-FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig6", "fig7"}
+FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7"}
 
 
 def test_copy_uses_its_own_package(template: Project) -> None:
@@ -70,6 +70,8 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "total_table": 1,
         "campaign_figure": 4,
         "field_figure": 2,
+        "march": 1,
+        "march_figure": 1,
     }
     assert plan.scenes == set(empty_project.campaign.scenes())
     assert plan.figures == FIGURES

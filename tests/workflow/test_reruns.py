@@ -12,7 +12,8 @@ from project_copy import Project
 
 TABLES = {"scale_table": 4, "total_table": 1}
 CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4}
-EVERYTHING = {"scene": 18, **CAMPAIGN, "field_figure": 2}
+MARCHES = {"march": 1, "march_figure": 1}
+EVERYTHING = {"scene": 18, **CAMPAIGN, "field_figure": 2, **MARCHES}
 CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6", "fig7"}
 FIELD_FIGURES = {"fig2", "fig4"}
 DEFAULT = "config/config.yaml"
@@ -84,14 +85,29 @@ def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule:
 def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> None:
     project.comment("rubfric/figures/style.py")
     plan = project.plan()
-    assert plan.jobs == {"campaign_figure": 4, "field_figure": 2}
-    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES
+    assert plan.jobs == {"campaign_figure": 4, "field_figure": 2, "march_figure": 1}
+    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES | {"fig5"}
 
 
-@pytest.mark.parametrize("name", ["rubfric/contact.py", "workflow/scripts/simulate_scene.py"])
-def test_edited_mechanics_run_everything(project: Project, name: str) -> None:
-    project.comment(name)
+def test_edited_mechanics_run_everything(project: Project) -> None:
+    project.comment("rubfric/contact.py")
     assert project.plan().jobs == EVERYTHING
+
+
+def test_edited_script_of_scenes_runs_all_but_the_marches(project: Project) -> None:
+    project.comment("workflow/scripts/simulate_scene.py")
+    assert project.plan().jobs == {"scene": 18, **CAMPAIGN, "field_figure": 2}
+
+
+@pytest.mark.parametrize("name", ["rubfric/finitetransient.py", "workflow/scripts/march_scene.py"])
+def test_edited_marches_run_alone(project: Project, name: str) -> None:
+    project.comment(name)
+    assert project.plan().jobs == MARCHES
+
+
+def test_added_speed_of_the_marches_runs_its_march_alone(project: Project) -> None:
+    project.configure("transient.velocities", [10, 100])
+    assert project.plan().jobs == MARCHES
 
 
 def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -> None:

@@ -1,0 +1,249 @@
+"""Figure 5: friction of blocks pressed and slid, step by step, until it saturates."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+from numpy.typing import NDArray
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import panels, style
+from rubfric.figures.scaling import scale_friction, tick_decades
+from rubfric.figures.selection import described
+
+Array = NDArray[np.float64]
+
+_SERIES = ("slid", "phase", "friction_contact", "mean_friction")
+_SCALARS = ("steady_friction_coefficient", "saturated", "memory_wavelengths")
+_ATTRIBUTES = ("velocity", "pressure", "scale", "aspect", "kinematics_used", "wavelength_mm", "steps_per_wavelength")
+# The phase in which the block begins to move; those before press it.
+_START = 2
+# Panel (b) begins at so many wavelengths; before, the block has hardly moved.
+_FIRST = 0.05
+# Markers are no nearer to each other than this share of the panel's width.
+_APART = 0.035
+# Lines of fast blocks wave more and lie below those of slow ones; in panel (b) they leave the means the say.
+_STEPS: dict[str, Any] = {"linewidth": 0.7, "zorder": 2.0}
+_PALE = 0.5
+_MEAN: dict[str, Any] = {"linestyle": "none", "markersize": 3.4, "zorder": 3.0}
+_STEADY: dict[str, Any] = {"linestyle": (0, (6, 3)), "linewidth": 0.6}
+_RING: dict[str, Any] = {
+    "linestyle": "none",
+    "marker": "o",
+    "markersize": 8.0,
+    "markerfacecolor": "none",
+    "markeredgewidth": 0.9,
+    "clip_on": False,
+}
+# The size of type of the note, points, and the characters on one of its lines, which end before the legend.
+_SMALL, _LINE = 6.0, 135
+# In inches: the height of the panels with their labels, of a line of the legend, and of a line of the note.
+_HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.8, 0.14, 0.1
+
+
+@dataclass(frozen=True)
+class _Slide:
+    """One block from its first movement on.
+
+    Attributes
+    ----------
+    speed : float
+        mm/s.
+    steps, slid, friction : ndarray, each of shape (steps,)
+        Number of each step, wavelengths slid and friction coefficient at its end.
+    mean_steps, mean_slid, means : ndarray, each of shape (wavelengths,)
+        The middle of each whole wavelength at full speed, in steps and in wavelengths, and mean friction there.
+    steady : float
+        Friction coefficient by the steady solver.
+    saturated : bool
+    memory : float
+        Wavelengths that the slowest branch remembers.
+    """
+
+    speed: float
+    steps: Array
+    slid: Array
+    friction: Array
+    mean_steps: Array
+    mean_slid: Array
+    means: Array
+    steady: float
+    saturated: bool
+    memory: float
+
+
+@style.applied()
+def draw(results: Sequence[xr.Dataset]) -> Figure:
+    """Draw the friction coefficient against steps of time and against wavelengths slid, a line per speed.
+
+    Parameters
+    ----------
+    results : sequence of xarray.Dataset
+        Marches of one scale, pressure and height-to-width ratio, at one speed each, in any order. Over ``step``:
+        ``slid`` (mm), ``phase`` and ``friction_contact``; over ``wavelength``: ``mean_friction``; and the scalars
+        ``steady_friction_coefficient``, ``saturated`` and ``memory_wavelengths``.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Steps and wavelengths count from where the block begins to move. Dashes show the steady solver's value. Markers
+        show means over a wavelength, all in panel (b) but those too near to another one, and the last in panel (a); a
+        ring around the last one tells that the mean has saturated, though friction may still wave about it. The legend
+        and the note tell where it has not.
+
+    Raises
+    ------
+    InvalidInput
+        For no results, one that lacks something or never slides, two of one speed, or different blocks.
+    """
+    _check(results)
+    ordered = sorted(results, key=lambda result: float(result.attrs["velocity"]))
+    slides = [_slide(result) for result in ordered]
+    looks = style.lines(len(slides))
+    handles, note = _handles(slides, looks), textwrap.wrap(_note(ordered, slides), _LINE)
+    lines = sum(1 + str(handle.get_label()).count("\n") for handle in handles)
+    height = max(_HEIGHT, _LEGEND_LINE * (lines + 2)) + _NOTE_LINE * len(note)
+    figure = Figure(figsize=(style.DOUBLE_COLUMN, height), layout="constrained")
+    by_step, by_distance = axes = list(figure.subplots(1, 2, sharey=True))
+    _scale(by_step, by_distance, slides)
+    for slide, look in zip(slides[::-1], looks[::-1], strict=True):
+        _draw_line(by_step, slide.steps, slide, look)
+        _draw_line(by_distance, slide.slid, slide, look, alpha=_PALE)
+        _draw_means(by_step, slide.mean_steps[-1:], slide, look)
+        _draw_means(by_distance, slide.mean_slid, slide, look)
+    panels.entitle(axes, ["step by step", "over the distance slid"])
+    by_step.set(xlabel="time steps since the block began to move (-)", ylabel="friction coefficient (-)")
+    by_distance.set_xlabel("distance slid (wavelengths)")
+    panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
+    figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL)
+    return figure
+
+
+def _check(results: Sequence[xr.Dataset]) -> None:
+    if not results:
+        raise InvalidInput("there are no marches to draw, but at least one is needed")
+    speeds, blocks = set(), set()
+    for result in results:
+        lacking = [name for name in _ATTRIBUTES if name not in result.attrs]
+        lacking += [name for name in (*_SERIES, *_SCALARS) if name not in result]
+        if lacking:
+            raise InvalidInput(f"the march {result.attrs.get('scene', 'without a name')} lacks {', '.join(lacking)}")
+        speed = float(result.attrs["velocity"])
+        if speed in speeds:
+            raise InvalidInput(f"there are two marches at {described(velocity=speed)}, but one line shows only one")
+        if not (result["phase"].values >= _START).any():
+            raise InvalidInput(f"the march at {described(velocity=speed)} has no step in which the block slides")
+        speeds.add(speed)
+        blocks.add(_block(result))
+    if len(blocks) > 1:
+        raise InvalidInput(f"the marches are of {' and of '.join(sorted(blocks))}, but one figure shows one block")
+
+
+def _block(result: xr.Dataset) -> str:
+    return described(**{name: float(result.attrs[name]) for name in ("scale", "pressure", "aspect")})
+
+
+def _slide(result: xr.Dataset) -> _Slide:
+    moving = result["phase"].values >= _START
+    slid = result["slid"].values[moving] / float(result.attrs["wavelength_mm"])
+    steps = np.arange(1.0, slid.size + 1.0)
+    means = result["mean_friction"].values
+    # Full speed begins after the last step of the start.
+    begin = int((result["phase"].values == _START).sum())
+    middles: Array = np.arange(0.5, means.size)
+    return _Slide(
+        speed=float(result.attrs["velocity"]),
+        steps=steps,
+        slid=slid,
+        friction=result["friction_contact"].values[moving],
+        mean_steps=begin + middles * int(result.attrs["steps_per_wavelength"]),
+        mean_slid=middles + (float(slid[begin - 1]) if begin else 0.0),
+        means=means,
+        steady=float(result["steady_friction_coefficient"]),
+        saturated=bool(result["saturated"]),
+        memory=float(result["memory_wavelengths"]),
+    )
+
+
+def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
+    most = max(float(slide.steps[-1]) for slide in slides)
+    by_step.set_xlim(0.0, 1.03 * most)
+    by_step.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
+    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+    furthest = max(1.0, *(float(slide.slid[-1]) for slide in slides))
+    by_distance.set_xscale("log")
+    by_distance.set_xlim(_FIRST, 1.15 * furthest)
+    tick_decades(by_distance.xaxis, _FIRST, furthest)
+    shown = [np.array([slide.steady, *slide.friction, *slide.means]) for slide in slides]
+    scale_friction(by_step, np.concatenate(shown))
+    if by_step.get_ylim()[0] < 0.0:
+        for panel in (by_step, by_distance):
+            panel.axhline(0.0, color="0.6", linewidth=0.5, zorder=0.5, gid="zero")
+
+
+def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any], alpha: float = 1.0) -> None:
+    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=style.written(slide.speed), **_STEPS)
+    panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
+
+
+def _draw_means(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any]) -> None:
+    """Draw the last of the means at as many places, without what would lie on another marker, and the ring."""
+    if places.size == 0:
+        return
+    means = slide.means[-places.size :]
+    marker = look | _MEAN | {"markevery": _apart(panel, places)}
+    panel.plot(places, means, gid="mean", **marker)
+    if slide.saturated:
+        panel.plot(places[-1], means[-1], color=look["color"], gid="saturated", zorder=4.0, **_RING)
+
+
+def _apart(panel: Axes, places: Array) -> list[int]:
+    """Return which places are far enough from the next one that is kept; the last always is."""
+    across = panel.transLimits.transform(panel.transScale.transform(np.stack((places, np.zeros_like(places)), axis=1)))
+    kept = [places.size - 1]
+    for place in range(places.size - 2, -1, -1):
+        if across[kept[-1], 0] - across[place, 0] >= _APART:
+            kept.append(place)
+    return kept[::-1]
+
+
+def _handles(slides: Sequence[_Slide], looks: Sequence[dict[str, Any]]) -> list[Line2D]:
+    handles = []
+    for slide, look in zip(slides, looks, strict=True):
+        words = style.written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
+        handles.append(Line2D([], [], label=words, **look | {"linestyle": "-", "linewidth": 0.8, "markersize": 3.4}))
+    handles.append(Line2D([], [], color="black", label="steady sliding,\nsolved directly", **_STEADY))
+    if any(slide.means.size for slide in slides):
+        handles.append(Line2D([], [], color="black", marker="o", label="mean over\na wavelength", **_MEAN))
+    if any(slide.saturated for slide in slides):
+        handles.append(Line2D([], [], color="black", label="mean saturated", **_RING))
+    return handles
+
+
+def _note(results: Sequence[xr.Dataset], slides: Sequence[_Slide]) -> str:
+    """Return the note below the panels: which block, which steps, and what is not saturated."""
+    block = _block(results[0])
+    strains = " and ".join(sorted({str(result.attrs["kinematics_used"]) for result in results}))
+    counts = sorted({int(result.attrs["steps_per_wavelength"]) for result in results})
+    steps = " to ".join(style.written(count) for count in sorted({counts[0], counts[-1]}))
+    told = f"{block[0].upper()}{block[1:]}; {strains} strain; {steps} time steps to a wavelength at full speed."
+    missing = [slide for slide in slides if not slide.saturated]
+    if missing:
+        told += " Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
+        told += ", ".join(_remembered(slide) for slide in missing) + "."
+    return told
+
+
+def _remembered(slide: _Slide) -> str:
+    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else style.written(round(slide.memory))
+    words = f"{slide.means.size} / {memory} at {style.written(slide.speed)} mm/s"
+    return words.replace(" ", "\N{NO-BREAK SPACE}")

@@ -1,0 +1,117 @@
+"""Press and slide, step by step: the procedure of Zhou, Wang and Wei (2019) on one scene, and what it yields."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from rubfric.arrays import Real
+from rubfric.block import Block
+from rubfric.marching import FRESH, March, wavelength_means
+from rubfric.procedure import PHASES, Procedure
+from rubfric.saturation import Saturation
+from rubfric.scene import Scene
+
+# Seconds between two lines of progress.
+_SILENCE = 10.0
+
+
+@dataclass(frozen=True)
+class Transient:
+    """A block pressed and slid.
+
+    Attributes
+    ----------
+    scene : Scene
+    procedure : Procedure
+    kinematics : {"small", "finite"}
+    block : Block
+    records : dict of ndarray, each of shape (steps,)
+        By name: ``time`` s; ``slid`` mm; ``pressure`` MPa; ``phase`` (index in ``PHASES``); friction coefficients
+        ``friction_contact`` (at the end of the step), ``friction_work`` (work of the road) and ``friction_energy``
+        (stored and dissipated energy less the work of the load), both means of the step and NaN where nothing
+        slides; ``stored_energy``, ``dissipated``, ``road_work``, ``load_work`` and ``imbalance`` (of the first law, in
+        the step), N mm per mm of thickness; ``contact_fraction``; ``top_displacement`` mm; ``iterations``,
+        ``krylov`` and ``halvings``.
+    saturation : Saturation
+        Whether friction has settled, and on what.
+    seconds : float
+        Wall time of the steps.
+    """
+
+    scene: Scene
+    procedure: Procedure
+    kinematics: str
+    block: Block
+    records: dict[str, Real]
+    saturation: Saturation
+    seconds: float
+
+    @property
+    def sliding(self) -> slice:
+        """The steps at full speed."""
+        return slice(int(np.searchsorted(self.records["phase"], PHASES.index("slide"))), None)
+
+    def means(self, route: str = "friction_contact") -> Real:
+        """Return friction averaged over each whole wavelength at full speed, shape (wavelengths,)."""
+        return wavelength_means(self.records[route][self.sliding], self.procedure.steps_per_wavelength)
+
+    @property
+    def imbalance(self) -> float:
+        """The first law: sum of what is missing at full speed over the work of the road there, dimensionless."""
+        missing = self.records["imbalance"][self.sliding].sum()
+        return float(abs(missing) / self.records["road_work"][self.sliding].sum())
+
+
+def march(
+    scene: Scene,
+    procedure: Procedure | None = None,
+    progress: Callable[[str], None] | None = None,
+    restart: Path | None = None,
+    seconds_between: float = 60.0,
+) -> Transient:
+    """Press a block onto its road and slide it, step by step.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Gets a line every ten seconds.
+    restart : Path, optional
+        File that the march goes on from where it exists, and that it leaves its state in.
+    seconds_between : float
+        Seconds between two writings of that file, at least.
+
+    Raises
+    ------
+    NotConverged
+        With the scene, the step and the residual, where halving a step does not help.
+    """
+    marching = March(scene, procedure or Procedure())
+    if restart is not None and restart.exists():
+        marching.restore(restart)
+    started = said = written = time.perf_counter()
+    first = marching.position
+    while not marching.ended:
+        marching.step()
+        now = time.perf_counter()
+        if progress is not None and (now - said > _SILENCE or marching.ended):
+            progress(marching.line((marching.position - first) / (now - started)))
+            said = now
+        if restart is not None and marching.position % FRESH == 0 and now - written >= seconds_between:
+            marching.save(restart)
+            written = now
+    if restart is not None:
+        marching.save(restart)
+    return Transient(
+        scene,
+        marching.procedure,
+        marching.kinematics,
+        marching.block,
+        marching.records,
+        marching.saturation,
+        marching.seconds,
+    )

@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from conftest import SceneMaker
+
+from rubfric import dataset, marchdata
+from rubfric.procedure import Procedure
+from rubfric.transient import Transient, march
+
+PROCEDURE = Procedure(start="relaxed", columns=16, steps_per_wavelength=8, wavelengths=2, until_saturated=False)
+
+
+@pytest.fixture(scope="module")
+def marched(paper_scene: SceneMaker) -> Transient:
+    return march(paper_scene(100.0, 0.5), PROCEDURE)
+
+
+@pytest.fixture(scope="module")
+def result(marched: Transient) -> xr.Dataset:
+    return marchdata.build(marched, 0.2)
+
+
+def test_every_record_is_kept_step_by_step(result: xr.Dataset, marched: Transient) -> None:
+    for name in marchdata.RECORDS:
+        np.testing.assert_array_equal(result[name].values, marched.records[name])
+
+
+def test_every_variable_has_a_unit_and_a_name(result: xr.Dataset) -> None:
+    for name, variable in result.variables.items():
+        assert variable.attrs["units"], name
+        assert variable.attrs["long_name"], name
+
+
+def test_means_over_wavelengths_end_in_what_saturation_judges(result: xr.Dataset) -> None:
+    assert result.sizes["wavelength"] == 2
+    assert float(result["mean_friction"][-1]) == float(result["saturation_friction"])
+    assert int(result["saturation_wavelengths"]) == 2
+    assert float(result["steady_friction_coefficient"]) == 0.2
+    assert "after 2 wavelengths" in result.attrs["saturation"]
+
+
+def test_what_it_takes_to_redo_it_stands_in_the_attributes(result: xr.Dataset, marched: Transient) -> None:
+    assert Procedure(**json.loads(result.attrs["procedure"])) == PROCEDURE
+    assert result.attrs["scene_digest"] == marched.scene.digest
+    assert result.attrs["kinematics_used"] == "small"
+
+
+def test_file_holds_what_was_written(result: xr.Dataset, tmp_path: pytest.TempPathFactory) -> None:
+    path = tmp_path / "march.nc"
+    dataset.write(result, path)
+    xr.testing.assert_identical(dataset.read(path), result)

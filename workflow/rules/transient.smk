@@ -1,0 +1,63 @@
+# Press and slide in time, the paper's procedure: a few scenes, for Fig. 5.
+MARCHES = CAMPAIGN.marches()
+
+
+def march_file(name):
+    """Return where the march of a scene belongs."""
+    return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"
+
+
+MARCH_FILES = [march_file(name) for name in MARCHES]
+
+
+rule march:
+    input:
+        package_files("rubfric.marchdata", "rubfric.simulation"),
+        script="workflow/scripts/march_scene.py",
+    output:
+        march_file("{scene}"),
+    log:
+        f"{RESULTS}/logs/marches/{RUBBER}/{ROAD}/{{scene}}.log",
+    priority: 10
+    params:
+        parameters=lambda wildcards: MARCHES[wildcards.scene].parameters(),
+        procedure=CAMPAIGN.transient.procedure(),
+        version=rubfric.__version__,
+    message:
+        "March of {wildcards.scene}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            parameters=params.parameters,
+            procedure=params.procedure,
+        )
+
+
+rule marches:
+    input:
+        MARCH_FILES,
+
+
+rule march_figure:
+    input:
+        package_files("rubfric.figures.fig5"),
+        script="workflow/scripts/draw_figure.py",
+        results=MARCH_FILES,
+    output:
+        pdf=f"{RESULTS}/figures/fig5.pdf",
+        png=f"{RESULTS}/figures/fig5.png",
+    log:
+        f"{RESULTS}/logs/figures/fig5.log",
+    message:
+        "Drawing fig5"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            figure="fig5",
+            results=list(input.results),
+            choice={},
+            outputs=list(output),
+        )
