@@ -22,3 +22,8 @@ def package_files(*modules):
 def scene_file(name):
     """Return where the result of a scene belongs."""
     return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def march_file(name):
+    """Return where the march of a scene belongs."""
+    return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"

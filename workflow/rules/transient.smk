@@ -1,12 +1,5 @@
 # Press and slide in time, the paper's procedure: a few scenes, for Fig. 5.
 MARCHES = CAMPAIGN.marches()
-
-
-def march_file(name):
-    """Return where the march of a scene belongs."""
-    return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"
-
-
 MARCH_FILES = [march_file(name) for name in MARCHES]
 
 
