@@ -27,7 +27,9 @@ _HOMES = {
     "RubfricError": "errors",
     "Scene": "scene",
     "SineScale": "road",
+    "Procedure": "procedure",
     "load": "campaign",
+    "march": "transient",
     "simulate": "simulation",
     "write": "dataset",
 }

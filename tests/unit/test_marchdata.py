@@ -1,16 +1,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import SceneMaker
 
 from rubfric import dataset, marchdata
 from rubfric.procedure import Procedure
+from rubfric.scene import Scene
 from rubfric.transient import Transient, march
 
+SceneMaker = Callable[..., Scene]
 PROCEDURE = Procedure(start="relaxed", columns=16, steps_per_wavelength=8, wavelengths=2, until_saturated=False)
 
 
