@@ -69,7 +69,8 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
     assert solved <= full
     for name in set(fractions) - solved:
         sentence = rf"NotConverged: {name}: not converged after \d+ steps, distance from balance and contact, .* is \S+"
-        assert len(re.findall(rf"^{sentence} \(log: \S*{name}.log\)$", done.stderr, re.MULTILINE)) == 1
+        said = rf"^{sentence} \(log: \S*/logs/scenes/\S*{name}.log\)$"
+        assert len(re.findall(said, done.stderr, re.MULTILINE)) == 1
         log = project.results / "logs" / "scenes" / "zhou2019" / "zhou2019" / f"{name}.log"
         assert re.search(sentence + r"$", log.read_text())
     assert "Finished jobid" in done.stderr
