@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from rubfric.arrays import Real
-from rubfric.finitestrain import XX, XY, YY, ZZ
+from rubfric.finitestrain import XX, XY, YY, ZZ, contract
 
 
 def excess(behind: Real, squared: Real, inverse: Real) -> Real:
@@ -36,7 +36,7 @@ def excess(behind: Real, squared: Real, inverse: Real) -> Real:
 def elongation(behind: Real, squared: Real, inverse: Real) -> Real:
     """Return A : Cb - ln det A - 3, never negative: G / 2 times that is stored; arguments as for ``excess``."""
     branch = inverse + behind
-    answer: Real = _contract(branch, squared) - np.log(_determinant(branch)) - 3.0
+    answer: Real = contract(branch, squared) - np.log(_determinant(branch)) - 3.0
     return answer
 
 
@@ -60,11 +60,6 @@ def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Rea
         one[XY] * other[XX] + one[YY] * other[XY],
         one[XY] * other[XY] + one[YY] * other[YY],
     )
-
-
-def _contract(one: Real, other: Real) -> Real:
-    total: Real = one[XX] * other[XX] + one[YY] * other[YY] + 2.0 * one[XY] * other[XY] + one[ZZ] * other[ZZ]
-    return total
 
 
 def _determinant(tensor: Real) -> Real:

@@ -13,6 +13,7 @@ Newton's method and Krylov iterations the same work for any Poisson's ratio up t
 from __future__ import annotations
 
 import copy
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ import numpy as np
 from rubfric.arrays import Complex, Real
 from rubfric.block import Block
 from rubfric.finitestrain import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.homogeneous import pressed
 from rubfric.material import Material
 from rubfric.past import Past, SteadyPast, convolve
 
@@ -143,6 +145,15 @@ class FiniteBlock:
             np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
             np.ones((self.points if block.plane == "stress" else 1, block.rows, block.columns)),
         )
+
+    def pressed(self, pressure: float) -> Fields:
+        """Return the fields of the relaxed block pressed on a flat road, by a nominal pressure in MPa."""
+        stretch, thickness = pressed(self.material, pressure, self.block.plane)
+        fields = self.at_rest()
+        fields.displacement[1] = (stretch - 1.0) * self.block.row_positions[:, None]
+        fields.log_thickness[:] = math.log(thickness)
+        fields.volume[:] = stretch * thickness
+        return fields
 
     def gradient(self, displacement: Real) -> Real:
         """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, rows, columns)."""

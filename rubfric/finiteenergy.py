@@ -13,11 +13,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from rubfric.arrays import Complex, Real
+from rubfric.arrays import Real
 from rubfric.branches import elongation, excess, trace
 from rubfric.finiteblock import FiniteBlock
 from rubfric.finitesteady import FiniteSolution
 from rubfric.finitestrain import Deformation, volumetric_energy
+from rubfric.past import branch_transfers
 from rubfric.routes import Energies, output_stride, rows_to_nodes
 
 
@@ -50,7 +51,7 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
     branches = zip(
         material.branch_shear_moduli,
         material.branch_bulk_moduli,
-        _transfers(finite),
+        branch_transfers(finite.material, finite.frequencies),
         material.relaxation_times,
         strict=True,
     )
@@ -67,14 +68,12 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
 
 def branch_tensors(finite: FiniteBlock, state: Deformation) -> Real:
     """Return A_i, shape (branches, 4, points, rows, columns)."""
-    return np.stack([state.inverse - finite.convolve(transfer, state.inverse) for transfer in _transfers(finite)])
-
-
-def _transfers(finite: FiniteBlock) -> Complex:
-    """Return i w tau / (1 + i w tau) of every branch; the last harmonic is its own conjugate."""
-    transfers = finite.material.branch_transfer(finite.frequencies)
-    transfers[:, -1] = transfers[:, -1].real
-    return transfers
+    return np.stack(
+        [
+            state.inverse - finite.convolve(transfer, state.inverse)
+            for transfer in branch_transfers(finite.material, finite.frequencies)
+        ]
+    )
 
 
 def nodal_density(finite: FiniteBlock, density: Real) -> Real:

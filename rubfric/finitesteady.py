@@ -20,7 +20,7 @@ from rubfric.prolongation import prolong
 from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
 from rubfric.routes import ROUND_OFF, disagreement
 from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
-from rubfric.slidingcontact import Correction, Road, SlidingContact
+from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
 from rubfric.solution import Decision, SteadySolution
 
 # The first mesh: this many columns and this growth of its rows, or as many columns as put these nodes into contact.
@@ -39,8 +39,6 @@ _MOST_COLUMNS = 4096
 _SHORTFALL = 0.1
 # Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
 _TOLERANCE = 1e-6
-# On a flat road displacements count by this share of a wavelength instead.
-_FLAT = 1e-8
 
 
 @dataclass(frozen=True)
@@ -174,14 +172,8 @@ def _meshed(scene: Scene, columns: int, growth: float) -> tuple[SlidingContact, 
     block = Block.graded(road.wavelength, scene.height, columns, scene.plane, growth, scene.numerics.first_row)
     material = fold_scene(scene, block.harmonics[1:]).material
     finite = FiniteBlock(block, material, scene.velocity)
-    stretch, thickness = pressed(material, scene.pressure, scene.plane)
-    fields = finite.at_rest()
-    fields.displacement[1] = (stretch - 1.0) * block.row_positions[:, None]
-    fields.log_thickness[:] = math.log(thickness)
-    fields.volume[:] = stretch * thickness
-    unit = max(road.amplitude, _FLAT * road.wavelength)
-    problem = SlidingContact(finite, (unit, unit * road.wavenumber), scene.name)
-    return problem, Start(fields, np.ones(columns, dtype=bool))
+    problem = SlidingContact(finite, measures(road), scene.name)
+    return problem, Start(finite.pressed(scene.pressure), np.ones(columns, dtype=bool))
 
 
 def _first_columns(scene: Scene) -> int:

@@ -152,7 +152,7 @@ def stress(state: Deformation, driving: Real, volumetric: Real) -> Real:
 
 def second_stress(state: Deformation, driving: Real, volumetric: Real) -> Real:
     """Return the second Piola-Kirchhoff stress S, MPa, shape (4, ...)."""
-    trace = _contract(driving, state.squared)
+    trace = contract(driving, state.squared)
     reciprocal = state.isochoric * state.inverse  # C^-1
     return state.isochoric * driving + (volumetric * state.volume - state.isochoric * trace / 3.0) * reciprocal
 
@@ -221,10 +221,10 @@ def _work(state: Deformation, driving: Real) -> tuple[Real, Real]:
     spin[2], spin[3] = yx * driving[XX] + yy * driving[XY], yx * driving[XY] + yy * driving[YY]
     if len(spin) == 5:
         spin[4] = driving[ZZ] * state.squared[ZZ]
-    return spin, _contract(driving, state.squared)
+    return spin, contract(driving, state.squared)
 
 
-def _contract(one: Real, other: Real) -> Real:
+def contract(one: Real, other: Real) -> Real:
     """Return the double contraction of two symmetric tensors."""
     total: Real = one[XX] * other[XX] + one[YY] * other[YY] + 2.0 * one[XY] * other[XY] + one[ZZ] * other[ZZ]
     return total

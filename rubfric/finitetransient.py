@@ -20,18 +20,15 @@ from rubfric.continuation import History, Start, reach
 from rubfric.finiteblock import Fields, FiniteBlock, Stressed
 from rubfric.finitehistory import Branches, FiniteState
 from rubfric.finitestrain import Inverted
-from rubfric.homogeneous import pressed
 from rubfric.newton import Solved, Stalled, newton
 from rubfric.outcome import Outcome
-from rubfric.past import StepPast, convolve
+from rubfric.past import StepPast, branch_transfers, convolve
 from rubfric.relaxation import Relaxation
 from rubfric.scene import Scene
-from rubfric.slidingcontact import Correction, Road, SlidingContact
+from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
 
 # Distance from balance and contact at which a step is solved: root mean square, over the road's amplitude.
 _TOLERANCE = 1e-6
-# On a flat road displacements count by this share of a wavelength instead.
-_FLAT = 1e-8
 # Directions that take more Krylov iterations are worth a new average of the tangent.
 _WORTH = 12
 
@@ -51,8 +48,7 @@ class FiniteTransient:
     def __init__(self, scene: Scene, block: Block, tolerance: float = _TOLERANCE) -> None:
         self.scene, self.block = scene, block
         self.finite = FiniteBlock(block, scene.material, 0.0)
-        unit = max(scene.road.amplitude, _FLAT * scene.road.wavelength)
-        self._scale = (unit, unit * scene.road.wavenumber)
+        self._scale = measures(scene.road)
         self._tolerance = tolerance
         self._branches = Branches(self.finite)
         self._circulant: tuple[tuple[float, float], Circulant] | None = None
@@ -77,14 +73,9 @@ class FiniteTransient:
         ------
         NotConverged
         """
-        stretch, thickness = pressed(self.scene.material, pressure, self.block.plane)
-        fields = self.finite.at_rest()
-        fields.displacement[1] = (stretch - 1.0) * self.block.row_positions[:, None]
-        fields.log_thickness[:] = math.log(thickness)
-        fields.volume[:] = stretch * thickness
         still = StepPast(0.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, len(self.block.harmonics))
         problem = SlidingContact(self.finite.remembering(still), self._scale, self.scene.name)
-        flat = Start(fields, np.ones(self.block.columns, dtype=bool))
+        flat = Start(self.finite.pressed(pressure), np.ones(self.block.columns, dtype=bool))
         solved = reach(problem, flat, self._road(pressure, 0.0), self._tolerance, History())
         force = self._force(solved.correction)
         self.state = self._relaxed(solved.fields, solved.correction.contact.touching, force, pressure)
@@ -92,11 +83,9 @@ class FiniteTransient:
     def slide_steadily(self, fields: Fields, correction: Correction, pressure: float, velocity: float) -> None:
         """Bring the block into a state of steady sliding that is known on this mesh."""
         inverse = correction.state.deformation.inverse
-        past = FiniteBlock(self.block, self.scene.material, velocity)
-        transfers = past.material.branch_transfer(past.frequencies)
-        transfers[:, -1] = transfers[:, -1].real
+        frequencies = self.block.harmonics * self.scene.road.excitation_frequency(velocity)
         behind, swollen = self._branches.none(fields, inverse)
-        for branch, transfer in enumerate(transfers):
+        for branch, transfer in enumerate(branch_transfers(self.scene.material, frequencies)):
             behind[:, branch] = -convolve(transfer, inverse)
             if len(swollen):
                 swollen[branch] = convolve(transfer, fields.volume)

@@ -125,6 +125,13 @@ def convolve(kernel: Complex, field: Real) -> Real:
     return answer
 
 
+def branch_transfers(material: Material, frequencies: Real) -> Complex:
+    """Return i w tau / (1 + i w tau), shape (branches, n), for ``convolve``; the last harmonic is its own conjugate."""
+    transfers = material.branch_transfer(frequencies)
+    transfers[:, -1] = transfers[:, -1].real
+    return transfers
+
+
 def _kernel(modulus: Complex) -> Complex:
     """Return what a modulus adds to its long-term value; the last harmonic is its own conjugate."""
     kernel = modulus - modulus[0].real

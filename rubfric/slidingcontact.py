@@ -19,9 +19,12 @@ from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.circulant import Circulant
 from rubfric.contact import Contact, pivot
 from rubfric.finiteblock import Fields, FiniteBlock, Stiffness, Stressed
+from rubfric.road import SineScale
 
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
 _VOLUME = 0.03
+# On a flat road displacements count by this share of a wavelength instead of the amplitude.
+_FLAT = 1e-8
 # A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
 _MOST_PIVOTS = 100
 
@@ -49,6 +52,12 @@ class Road:
     def curvature(self, position: Real) -> Real:
         """Return s''(x), 1/mm."""
         return -self.wavenumber * self.wavenumber * self.height(position)
+
+
+def measures(road: SineScale) -> tuple[float, float]:
+    """Return the displacement, mm, and the relative change of thickness that count as one on a road."""
+    unit = max(road.amplitude, _FLAT * road.wavelength)
+    return unit, unit * road.wavenumber
 
 
 @dataclass(frozen=True)
