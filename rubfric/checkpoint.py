@@ -34,7 +34,7 @@ def read(path: Path, label: str) -> dict[str, Real]:
         with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
     except (OSError, EOFError, ValueError, TypeError, zipfile.BadZipFile) as error:
-        raise BrokenResult(f"{path} cannot be read: {error}") from error
+        raise BrokenResult(f"{path} cannot be read as what a march left; delete it to begin afresh") from error
     found = str(arrays.pop(_LABEL, ""))
     if found != label:
         raise BrokenResult(f"{path} belongs to other work: it has the label {found!r}, not {label!r}")

@@ -2,6 +2,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,7 +54,20 @@ def test_what_it_takes_to_redo_it_stands_in_the_attributes(result: xr.Dataset, m
     assert result.attrs["kinematics_used"] == "small"
 
 
-def test_file_holds_what_was_written(result: xr.Dataset, tmp_path: pytest.TempPathFactory) -> None:
+def test_file_holds_what_was_written(result: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "march.nc"
     dataset.write(result, path)
     xr.testing.assert_identical(dataset.read(path), result)
+
+
+def test_checkpoint_of_another_march_does_not_stand_in_the_way(
+    paper_scene: SceneMaker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[2] / "workflow" / "scripts"))
+    script = import_module("march_scene")
+    output = tmp_path / "march.nc"
+    left = tmp_path / ".march.nc.checkpoint"
+    left.write_bytes(b"of another march")
+    script.main(str(output), paper_scene(100.0, 0.5).parameters(), asdict(PROCEDURE))
+    assert dataset.read(output).sizes["wavelength"] == 2
+    assert not left.exists()

@@ -4,23 +4,33 @@ from pathlib import Path
 from typing import Any
 
 from rubfric.dataset import write
+from rubfric.errors import BrokenResult
 from rubfric.marchdata import build
 from rubfric.procedure import Procedure
 from rubfric.scene import Scene
 from rubfric.simulation import simulate
-from rubfric.transient import march
+from rubfric.transient import Transient, march
 
 
 def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> None:
     """March the scene of ``parameters`` through ``procedure`` into the netCDF file ``output``.
 
-    A march that was killed goes on from its checkpoint, a hidden file beside the output.
+    A march that was killed goes on from its checkpoint, a hidden file beside the output, if it is of the same config.
     """
     scene = Scene.from_parameters(parameters)
     place = Path(output)
     checkpoint = place.with_name(f".{place.name}.checkpoint")
     steady = float(simulate(scene)["friction_coefficient"])
-    found = march(scene, Procedure(**procedure), progress=lambda line: print(line, flush=True), restart=checkpoint)
+
+    def go() -> Transient:
+        return march(scene, Procedure(**procedure), progress=lambda line: print(line, flush=True), restart=checkpoint)
+
+    try:
+        found = go()
+    except BrokenResult as error:  # left by a march of another config, or damaged: of no use
+        print(f"{error}; beginning afresh", flush=True)
+        checkpoint.unlink()
+        found = go()
     write(build(found, steady), output)
     checkpoint.unlink(missing_ok=True)
     print(f"{scene.name}: {found.saturation}; steady sliding gives {steady:.5g}")
