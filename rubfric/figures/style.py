@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Iterator
@@ -117,6 +118,16 @@ def written(value: float) -> str:
     whole, _, fraction = plain.partition(".")
     grouped = f"{int(whole):,}".replace(",", "\N{NO-BREAK SPACE}")
     return f"{grouped}.{fraction}" if fraction else grouped
+
+
+def percent(share: float) -> str:
+    """Return a share as it is printed in figures, with two digits at most, rounded up: 0.0123 is 1.3 %."""
+    value = 100.0 * share
+    if value <= 0.0 or not math.isfinite(value):
+        return f"{value:g}\N{NO-BREAK SPACE}%"
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    # What rounding adds to a number of two digits must not raise it.
+    return f"{written(min(unit, 1.0) * math.ceil(value / min(unit, 1.0) - 1e-9))}\N{NO-BREAK SPACE}%"
 
 
 def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
