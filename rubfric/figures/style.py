@@ -71,6 +71,13 @@ HATCHES = ("////", "....", "\\\\\\\\", "xxxx", "----")
 _MAP = "plasma"
 _LIGHTEST = 0.76
 
+# Kinds without an order: the muted scheme of P. Tol (Colour Schemes, SRON/EPS/TN/09-002, 2021), which the colour-blind
+# tell apart, and an orange.
+_KINDS = (
+    *("#332288", "#cc6677", "#117733", "#882255", "#44aa99"),
+    *("#aa4499", "#999933", "#88ccee", "#ddaa33", "#e8601c"),
+)
+
 _METADATA: dict[str, dict[str, str | None]] = {
     "pdf": {"Creator": "rubfric", "CreationDate": None},
     "png": {},
@@ -107,6 +114,19 @@ def lines(count: int) -> list[dict[str, Any]]:
             "clip_on": False,
         }
         looks.append(look)
+    return looks
+
+
+def kinds(count: int) -> list[dict[str, Any]]:
+    """Return the colour and marker of each of some kinds that have no order, as keywords of ``Axes.plot``.
+
+    They repeat after forty kinds.
+    """
+    looks = []
+    for place in range(count):
+        colour = _KINDS[place % len(_KINDS)]
+        face = "white" if place % 2 else colour
+        looks.append({"color": colour, "marker": _MARKERS[place % len(_MARKERS)], "markerfacecolor": face})
     return looks
 
 
@@ -152,13 +172,13 @@ def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
             endings = " or ".join(f".{ending}" for ending in _METADATA)
             raise InvalidInput(f"a figure cannot be saved as {target}, but its name must end in {endings}")
     with applied():
-        _lay_out(figure)
+        lay_out(figure)
         for target in targets:
             _save_one(figure, target)
 
 
-def _lay_out(figure: Figure) -> None:
-    """Place the panels once for all files; matplotlib would do it twice for each."""
+def lay_out(figure: Figure) -> None:
+    """Place the panels for good, once for all files; matplotlib would do it twice for each."""
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
