@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 
 import pandas as pd
 import xarray as xr
@@ -62,6 +63,27 @@ def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
     scales = [name for name in table.columns if name.startswith("friction_scale_")]
     columns = ["velocity", "pressure", *scales, "friction_total", "friction_total_error", "nominal_compression"]
     return table[columns].rename(columns=_AXES)
+
+
+def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:
+    """Return a table from a CSV file; an empty field, and nan, is a gap.
+
+    Parameters
+    ----------
+    path : path-like
+    words : sequence of str
+        Columns to keep as they are written, where the table has them: ``0.10`` stays ``0.10``, ``off`` is a word.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is no CSV table.
+    """
+    try:
+        return pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
+    except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
+        reason = " ".join(str(error).split())
+        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
 
 
 def _check(campaign: xr.Dataset, *variables: str) -> None:

@@ -65,20 +65,20 @@ def draw(table: pd.DataFrame) -> Figure:
     """
     known = _known(table)
     sets = list(dict.fromkeys([*(name for name in _WORDS if name in set(known["set"])), *known["set"]]))
-    colours = [look["color"] for look in style.kinds(len(sets))]
+    colours, dashes = [look["color"] for look in style.kinds(len(sets))], style.dashes(len(sets))
     note = textwrap.wrap(_note(table, known), _NOTE_WIDTH)
     height = _HEIGHT + _LEGEND_LINE * max(len(sets), 3) + _NOTE_LINE * len(note)
     figure = Figure(figsize=(style.DOUBLE_COLUMN, height), layout="constrained")
     scatter, shares = axes = list(figure.subplots(1, 2))
     _scale_errors(scatter, known)
     _scale_ratios(shares, known)
-    for name, colour in zip(sets, colours, strict=True):
+    for name, colour, dash in zip(sets, colours, dashes, strict=True):
         rows = known[known["set"] == name]
         _draw_points(scatter, rows, colour)
-        _draw_shares(shares, rows, colour)
+        _draw_shares(shares, rows, colour, dash)
     panels.entitle(axes, ["each run", "all runs of a set"])
-    handles = _handles(known, sets, colours)
-    figure.legend(handles=handles, loc="outside upper left", ncols=2)
+    handles = _handles(known, sets, colours, dashes)
+    figure.legend(handles=handles, loc="outside upper center", ncols=2)
     figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL_TYPE)
     return figure
 
@@ -88,9 +88,8 @@ def _known(table: pd.DataFrame) -> pd.DataFrame:
     name = "table of calibration"
     check_columns(table, name, ("set", "kinematics", "covered"), ("error", "estimate", "reference", "reference_error"))
     if not is_bool_dtype(table["covered"]):
-        raise InvalidInput(
-            f"the column covered of the {name} is of {table['covered'].dtype}, but must be True or False"
-        )
+        kind = table["covered"].dtype
+        raise InvalidInput(f"the column covered of the {name} is of {kind}, but must be True or False")
     known = table[np.isfinite(table["error"]) & np.isfinite(table["estimate"])]
     if known.empty:
         raise InvalidInput(f"the {name} has no run with both a true and an estimated error, but at least one is needed")
@@ -128,20 +127,20 @@ def _scale_ratios(panel: Axes, known: pd.DataFrame) -> None:
     ratio = _ratio(known)
     shown = ratio[np.isfinite(ratio) & (ratio > 0.0)]
     low, high = (float(shown.min()), float(shown.max())) if shown.size else (1.0, 1.0)
-    panel.set(xscale="log", xlim=(min(low, 0.5) / _MARGIN, max(high, 12.0) * _MARGIN), ylim=(0.0, 100.0))
+    panel.set(xscale="log", xlim=(min(low, 0.5) / _MARGIN, max(high, 12.0) * _MARGIN), ylim=(0.0, 101.0))
     tick_decades(panel.xaxis, *panel.get_xlim())
     panel.axvline(1.0, gid="equal", zorder=1.0, **_EQUAL)
     panel.axvline(10.0, gid="tenfold", zorder=1.0, **_TENFOLD)
     panel.set(xlabel="estimated over true error (-)", ylabel="runs with at most this ratio (%)")
 
 
-def _draw_shares(panel: Axes, rows: pd.DataFrame, colour: Any) -> None:
+def _draw_shares(panel: Axes, rows: pd.DataFrame, colour: Any, dash: Any) -> None:
     """Draw the cumulative distribution of the ratio; a run without true error counts as infinite."""
     left, right = panel.get_xlim()
     ratio = np.sort(np.clip(_ratio(rows), left, np.inf))
     shares = 100.0 * np.arange(ratio.size + 1) / ratio.size
     ends = np.minimum(np.concatenate(([left], ratio, [np.inf])), right)
-    panel.stairs(shares, ends, baseline=None, color=colour, linewidth=1.2, gid="shares")
+    panel.stairs(shares, ends, baseline=None, color=colour, linestyle=dash, linewidth=1.2, gid="shares")
     panel.plot(np.median(ratio).clip(max=right), 50.0, marker="o", color=colour, gid="median", markersize=3.5)
 
 
@@ -155,11 +154,11 @@ def _marker(kinematics: Any) -> str:
     return _MARKERS.get(str(kinematics), _OTHER_MARKER)
 
 
-def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any]) -> list[Artist]:
+def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any], dashes: Sequence[Any]) -> list[Artist]:
     """Return the sets with their numbers in a first column of the legend, and what else is drawn in a second."""
     first: list[Artist] = [
-        Line2D([], [], color=colour, linewidth=2.5, label=_told(known[known["set"] == name], name))
-        for name, colour in zip(sets, colours, strict=True)
+        Line2D([], [], color=colour, linestyle=dash, linewidth=1.8, label=_told(known[known["set"] == name], name))
+        for name, colour, dash in zip(sets, colours, dashes, strict=True)
     ]
     second: list[Artist] = [
         Line2D([], [], color="0.3", marker=_marker(kinematics), label=f"{kinematics} strain", **_POINT)

@@ -52,18 +52,34 @@ def known_runs(table: pd.DataFrame) -> pd.DataFrame:
     return known
 
 
-def by_knob(known: pd.DataFrame) -> dict[str, Ladder]:
-    """Return the ladder of each knob, knobs and rungs in the order in which the table names them first."""
-    return {str(knob): _ladder(rows) for knob, rows in known.groupby("knob", sort=False)}
+def by_knob(table: pd.DataFrame) -> dict[str, Ladder]:
+    """Return the ladder of each knob that has a run with an error and a cost, in the order of the table.
+
+    The rungs of a knob are in the order of the scene that has most of them, whether its runs have errors or not.
+
+    Raises
+    ------
+    InvalidInput
+        As ``known_runs``.
+    """
+    known = known_runs(table)
+    knobs = dict.fromkeys(table["knob"][table["knob"].isin(known["knob"])])
+    return {str(knob): _ladder(known[known["knob"] == knob], _order(table[table["knob"] == knob])) for knob in knobs}
 
 
-def _ladder(rows: pd.DataFrame) -> Ladder:
-    groups = rows.groupby("rung", sort=False)
+def _order(rows: pd.DataFrame) -> list[str]:
+    scenes = sorted(rows.groupby("scene", sort=False)["rung"].agg(list), key=len, reverse=True)
+    return list(dict.fromkeys(rung for scene in scenes for rung in scene))
+
+
+def _ladder(rows: pd.DataFrame, order: list[str]) -> Ladder:
+    groups = rows.groupby("rung")
+    rungs = [rung for rung in order if rung in groups.groups]
     return Ladder(
-        rungs=tuple(str(rung) for rung in groups["cost"].median().index),
-        cost=groups["cost"].median().to_numpy(),
-        error=100.0 * groups["error"].median().to_numpy(),
-        worst=100.0 * groups["error"].max().to_numpy(),
+        rungs=tuple(str(rung) for rung in rungs),
+        cost=groups["cost"].median()[rungs].to_numpy(),
+        error=100.0 * groups["error"].median()[rungs].to_numpy(),
+        worst=100.0 * groups["error"].max()[rungs].to_numpy(),
         costs=rows["cost"].to_numpy(dtype=np.float64),
         errors=100.0 * rows["error"].to_numpy(dtype=np.float64),
     )

@@ -93,7 +93,7 @@ def draw(table: pd.DataFrame) -> Figure:
         has both error and cost.
     """
     known = known_runs(table)
-    ladders = by_knob(known)
+    ladders = by_knob(table)
     presets = ladders.pop(_PRESET, None)
     bound = own_error(known)
     looks = style.kinds(len(ladders))
@@ -126,10 +126,11 @@ def _arrange(count: int, lines: int) -> tuple[Figure, SubFigure | Figure, Axes, 
         return figure, figure, figure.subplots(), []
     parts = figure.subfigures(2, 1, squeeze=False, height_ratios=(_HEIGHT, _SMALL_HEIGHT * rows))
     upper, lower = parts.flat
+    large = upper.subplots()
     small: list[Axes] = list(lower.subplots(rows, _ACROSS, squeeze=False).flat)
     for spare in small[count:]:
         spare.remove()
-    return figure, upper, upper.subplots(), small[:count]
+    return figure, upper, large, small[:count]
 
 
 def _scale(axes: Sequence[Axes], ladders: Sequence[Ladder], bound: float) -> None:

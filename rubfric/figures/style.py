@@ -130,6 +130,11 @@ def kinds(count: int) -> list[dict[str, Any]]:
     return looks
 
 
+def dashes(count: int) -> list[Any]:
+    """Return the dashes of each of some lines; they repeat after five."""
+    return [_DASHES[place % len(_DASHES)] for place in range(count)]
+
+
 def written(value: float) -> str:
     """Return a number as it is printed in figures: 0.1, 10, 1000, 10 000."""
     plain = f"{value:.12g}"

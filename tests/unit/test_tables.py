@@ -12,7 +12,7 @@ import xarray as xr
 
 from rubfric.errors import BrokenResult
 from rubfric.scalars import SCALARS
-from rubfric.tables import scale_table, total_table, write_table
+from rubfric.tables import read_table, scale_table, total_table, write_table
 
 SCALES, VELOCITIES, PRESSURES, ASPECTS = (1, 2), (0.1, 100.0, 10000.0), (0.5, 5.0), (0.5, 0.75)
 
@@ -152,3 +152,23 @@ def test_interrupted_write_keeps_the_older_table(
         write_table(scale_table(campaign, 1), target)
     assert [path.name for path in tmp_path.iterdir()] == ["one.csv"]
     assert target.read_text() == "older"
+
+
+def test_words_and_gaps_of_a_table_are_read_as_they_are_written(tmp_path: Path) -> None:
+    source = tmp_path / "ladder.csv"
+    source.write_text('rung,error,covered,note\n0.10,0.5,True,\nnone,nan,False,"slow, but right"\n')
+    table = read_table(source, ["rung", "note", "absent"])
+    assert table["rung"].tolist() == ["0.10", "none"]
+    assert table["error"].tolist()[0] == 0.5
+    assert np.isnan(table["error"].tolist()[1])
+    assert table["covered"].dtype == bool
+    assert table["note"].tolist()[1] == "slow, but right"
+
+
+@pytest.mark.parametrize("content", [None, b"", b"a,b\n1,2,3\n4\n5,6,7,8\n", b"\xff\xfe\x00"])
+def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> None:
+    source = tmp_path / "broken.csv"
+    if content is not None:
+        source.write_bytes(content)
+    with pytest.raises(BrokenResult, match=r"broken\.csv is no readable table: .*; delete it and run again$"):
+        read_table(source, [])
