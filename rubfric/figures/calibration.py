@@ -30,7 +30,7 @@ _OTHER_MARKER = "X"
 _HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.9, 0.16, 0.11
 _SMALL_TYPE, _NOTE_WIDTH = 6.0, 150
 _MARGIN = 1.5
-# A decade or more on the axes of errors; errors of less than this part of the median true one lie at the edge.
+# Errors below this part of the median one lie at the edge of the panel.
 _LOWEST = 1e-3
 _POINT: dict[str, Any] = {"linestyle": "none", "markersize": 3.0, "markeredgewidth": 0.5, "alpha": 0.7}
 _WHISKER: dict[str, Any] = {"linewidth": 0.4, "alpha": 0.35, "zorder": 1.5}
@@ -174,7 +174,8 @@ def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any], d
 def _told(rows: pd.DataFrame, name: str) -> str:
     """Return a set in words, with its coverage and its median ratio."""
     covered, count, ratio = int(rows["covered"].sum()), len(rows), float(np.median(_ratio(rows)))
-    share = f"{100.0 * covered / count:.0f} % of {count} covered".replace(" ", "\N{NO-BREAK SPACE}")
+    # Rounded down: 100 % are all of them.
+    share = f"{covered} of {count} covered ({100 * covered // count} %)".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{_WORDS.get(name, name)}: {share}, median ratio {ratio:.2g}"
 
 

@@ -71,9 +71,9 @@ def test_legend_tells_coverage_and_median_ratio(make_calibration: Maker) -> None
     words = told(calibration.draw(table))
     # In the order of trust, whatever the order of the table.
     assert words[:3] == [
-        "ladders: 75 % of 4 covered, median ratio 3",
-        "inside the paper's grid: 75 % of 4 covered, median ratio 3",
-        "outside the paper's grid: 0 % of 4 covered, median ratio 3",
+        "ladders: 3 of 4 covered (75 %), median ratio 3",
+        "inside the paper's grid: 3 of 4 covered (75 %), median ratio 3",
+        "outside the paper's grid: 0 of 4 covered (0 %), median ratio 3",
     ]
     for text in ("small strain", "finite strain", "estimate = true error", "estimate = 10 x true error"):
         assert text in words

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig1, fig3, style
@@ -87,6 +88,22 @@ def test_every_line_has_its_band(
 def test_campaign_without_errors_is_refused(make_campaign: Maker, module: ModuleType) -> None:
     with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error, the est"):
         module.draw(make_campaign().drop_vars("friction_coefficient_error"), [1], [5.0], ASPECTS)
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+@pytest.mark.parametrize("pressures", [(5.0,), (0.5, 5.0)])
+def test_no_words_cover_each_other(
+    make_campaign: Maker,
+    module: ModuleType,
+    pressures: tuple[float, ...],
+    overlaps: Callable[[Figure], list[tuple[str, str]]],
+    tmp_path: Path,
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = module.draw(campaign, [1], pressures, ASPECTS)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
 
 
 @pytest.mark.parametrize("module", [fig1, fig3])

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rubfric.errors import BrokenResult, InvalidInput
@@ -67,6 +68,16 @@ def test_every_line_has_its_band(make_campaign: Maker, words: Callable[..., list
     friction = campaign["friction_coefficient"].sel(scale=2, pressure=1.0, velocity=100.0, aspect=0.75).item()
     assert f"estimated error,\nat most {style.percent(0.5 / friction)}" in words(figure)
     assert figure.axes[0].get_ylim()[1] > friction + 0.5
+
+
+def test_no_words_cover_each_other(
+    make_campaign: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = fig6.draw(campaign, 0.75)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
 
 
 def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig7, style
@@ -96,6 +97,16 @@ def test_band_is_the_sum_of_the_errors_of_the_scales(make_campaign: Maker, words
     for speed in campaign["velocity"].values:
         assert thickness(corners, speed) == pytest.approx(2.0 * error.sel(velocity=speed).item())
     assert "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%" in words(figure)
+
+
+def test_no_words_cover_each_other(
+    make_campaign: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = fig7.draw(campaign, 0.75, 5.0)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
 
 
 def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
