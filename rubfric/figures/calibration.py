@@ -187,7 +187,8 @@ def _note(table: pd.DataFrame, known: pd.DataFrame) -> str:
     """Return the note below the panels: how to read them, and what is not shown."""
     told = (
         "Covered: the estimate is at least the true error. Whiskers: what the reference's own error does to the true "
-        "one. Errors below a panel are drawn at its edge. In (b), dots are medians, and what lacks to 100 % lies beyond."
+        "one. Errors below panel (a) are drawn at its edge. In (b), dots are medians; what lacks to 100 % lies beyond "
+        "the panel."
     )
     lost = len(table) - len(known)
     if lost:
