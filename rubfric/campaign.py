@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -26,12 +26,13 @@ from rubfric.choices import (
 )
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
+from rubfric.presets import read_numerics
 from rubfric.road import SineScale, scales_from_config
 from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "numerics", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "numerics", "presets", "rubbers", "roads"),
 )
 
 
@@ -103,7 +104,7 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
-            numerics=_read_numerics(config["numerics"]),
+            numerics=read_numerics(config["numerics"], config["presets"]),
         )
 
     def scene(
@@ -225,8 +226,3 @@ def _folder(value: Any) -> str:
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
         raise InvalidInput(f"results is {value!r}, but must be the path of a folder, without braces")
     return value.rstrip("/") or "/"
-
-
-def _read_numerics(entry: Any) -> Numerics:
-    keys = tuple(field.name for field in fields(Numerics))
-    return Numerics(**checks.known_keys("numerics", entry, keys, keys))

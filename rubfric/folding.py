@@ -17,8 +17,6 @@ from rubfric.errors import InvalidInput
 from rubfric.material import Material
 from rubfric.scene import Scene
 
-# Share of the accuracy asked for that folding may use up.
-_SHARE = 0.01
 # Relaxation time, s, of the branch that never relaxes.
 _NEVER = 1e30
 
@@ -82,7 +80,7 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
 def fold_scene(scene: Scene, harmonics: Whole) -> Folding:
     """Fold the branches that the harmonics of a scene do not need, within its accuracy."""
     frequencies = harmonics * scene.road.excitation_frequency(scene.velocity)
-    return fold(scene.material, frequencies, _SHARE * scene.numerics.accuracy)
+    return fold(scene.material, frequencies, scene.numerics.folding * scene.numerics.accuracy)
 
 
 def _reduced(material: Material, relaxed: tuple[int, ...], frozen: tuple[int, ...]) -> Material:
