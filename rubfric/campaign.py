@@ -64,6 +64,8 @@ class Campaign:
     transient : TransientChoice
     figures : FigureChoice
     numerics : Numerics
+    presets : dict of str to Numerics
+        Every preset, by name.
     """
 
     results: str
@@ -79,6 +81,7 @@ class Campaign:
     transient: TransientChoice
     figures: FigureChoice
     numerics: Numerics
+    presets: dict[str, Numerics]
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any]) -> Campaign:
@@ -91,6 +94,7 @@ class Campaign:
         grid = checks.known_keys("grid", config["grid"], keys, keys)
         velocities = checks.grid("grid.velocities", grid["velocities"], "mm/s")
         pressures = checks.grid("grid.pressures", grid["pressures"], "MPa")
+        numerics, presets = read_numerics(config["numerics"], config["presets"])
         return cls(
             results=_folder(config["results"]),
             material=materials[checks.one_of("rubber", config["rubber"], materials)],
@@ -104,7 +108,8 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
-            numerics=read_numerics(config["numerics"], config["presets"]),
+            numerics=numerics,
+            presets=presets,
         )
 
     def scene(

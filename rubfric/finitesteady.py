@@ -18,13 +18,12 @@ from rubfric.reference import full_contact_pressure, westergaard_contact_fractio
 from rubfric.refinement import SHORTFALL, refined
 from rubfric.resolution import Resolution, fit, needed
 from rubfric.routes import ROUND_OFF
-from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
+from rubfric.scene import Scene
 from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
 from rubfric.solution import Decision, Friction, SteadySolution
 
-# The first mesh has at least this many columns, and as many as put these nodes into contact.
-_COARSE_COLUMNS = 64
-_COARSE_NODES = 8
+# The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
+_NODES, _FEWEST_NODES = 0.25, 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,9 +104,9 @@ class FiniteSolver:
         scene = self.scene
         filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
         fraction = float(westergaard_contact_fraction(scene.pressure / filling)) if filling > 0.0 else 1.0
-        columns = max(_COARSE_COLUMNS, _COARSE_NODES / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
-        growth = needed(scene, 1.0, self.finite).coarser(scene, self.finite).growth
-        return Resolution(fit(scene, columns, self.finite), growth)
+        nodes = max(_FEWEST_NODES, _NODES * scene.numerics.finite_contact_nodes)
+        coarse = needed(scene, 1.0, self.finite).coarser(scene, self.finite)
+        return Resolution(fit(scene, max(coarse.columns, nodes / fraction), self.finite), coarse.growth)
 
     def solve(self, resolution: Resolution) -> FiniteSolution:
         """Return the solution on a mesh."""

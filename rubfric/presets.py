@@ -14,7 +14,26 @@ from rubfric.scene import Numerics
 PRESET_KEYS = ("accuracy", "contact_nodes", "finite_contact_nodes", "columns_min", "finite_columns_min", "row_growth")
 
 
-def read_numerics(entry: Any, presets: Any) -> Numerics:
+# The mesh of fineness 1: others have so many times as many nodes and columns, and rows that grow so much slower.
+_NODES, _FINITE_NODES, _COLUMNS, _FINITE_COLUMNS, _GROWTH = 64, 32, 256, 128, 0.1
+
+
+def fineness(value: float) -> dict[str, Any]:
+    """Return what ``PRESET_KEYS`` say of the first mesh at some fineness, 1 being the default."""
+
+    def columns(number: int) -> int:
+        return max(8, 8 * round(number * value / 8))
+
+    return {
+        "contact_nodes": round(_NODES * value),
+        "finite_contact_nodes": round(_FINITE_NODES * value),
+        "columns_min": columns(_COLUMNS),
+        "finite_columns_min": columns(_FINITE_COLUMNS),
+        "row_growth": float(f"{1.0 + _GROWTH / value:.4g}"),
+    }
+
+
+def read_numerics(entry: Any, presets: Any) -> tuple[Numerics, dict[str, Numerics]]:
     """Read and check the keys ``numerics`` and ``presets`` of a config.
 
     Parameters
@@ -23,6 +42,13 @@ def read_numerics(entry: Any, presets: Any) -> Numerics:
         ``preset``, every field of ``Numerics`` that is none of a preset's, and any of those laid over it.
     presets : mapping
         Presets by name, each with ``PRESET_KEYS``.
+
+    Returns
+    -------
+    chosen : Numerics
+        The preset in use, with what is laid over it.
+    every : dict of str to Numerics
+        All presets, with nothing laid over.
 
     Raises
     ------
@@ -34,20 +60,20 @@ def read_numerics(entry: Any, presets: Any) -> Numerics:
     names = tuple(field.name for field in fields(Numerics))
     own = tuple(name for name in names if name not in PRESET_KEYS)
     given = dict(checks.known_keys("numerics", entry, ("preset", *names), ("preset", *own)))
-    chosen = checks.one_of("numerics.preset", given.pop("preset"), presets)
-    for name, preset in presets.items():
-        checks.known_keys(f"presets.{checks.text('name in presets', name)}", preset, PRESET_KEYS, PRESET_KEYS)
     rest = {name: given[name] for name in own}
+    every = {}
     for name, preset in presets.items():
-        _checked(f"presets.{name}.", rest | dict(preset))
-    return Numerics(**{**presets[chosen], **given})
+        at = f"presets.{checks.text('name in presets', name)}"
+        every[name] = _checked(at, rest | dict(checks.known_keys(at, preset, PRESET_KEYS, PRESET_KEYS)))
+    chosen = checks.one_of("numerics.preset", given.pop("preset"), presets)
+    return Numerics(**{**presets[chosen], **given}), every
 
 
-def _checked(key: str, values: Mapping[str, Any]) -> None:
-    """Raise InvalidInput where a preset is wrong, with its own name in the message."""
+def _checked(at: str, values: Mapping[str, Any]) -> Numerics:
+    """Return a preset; InvalidInput has its name in the message."""
     try:
-        Numerics(**values)
+        return Numerics(**values)
     except InvalidInput as error:
         text = str(error)
         name = text.removeprefix("numerics.").split()[0].split("[")[0]
-        raise InvalidInput(text.replace("numerics.", key if name in PRESET_KEYS else "numerics.", 1)) from error
+        raise InvalidInput(text.replace("numerics", at, 1) if name in PRESET_KEYS else text) from error

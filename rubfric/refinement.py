@@ -50,33 +50,41 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         From ``solver``.
     """
     meshes: list[OnMesh] = []
-    finite = solver.finite
-
-    def on(resolution: Resolution) -> Solution:
-        solution = solver.solve(resolution)
-        touching = int(np.count_nonzero(solution.contact.touching))
-        block = solution.block
-        meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction))
-        return solution
-
-    resolution = solver.first()
-    solution = on(resolution)
-    target = needed(scene, solution.contact_fraction, finite)
-    while (coarse := target.coarser(scene, finite)).columns > _NEAR * resolution.columns:
-        stride = resolution.finer(scene, _STRIDE, finite)
-        resolution = coarse if coarse.columns <= stride.columns else Resolution(stride.columns, coarse.growth)
-        solution = on(resolution)
-        target = needed(scene, solution.contact_fraction, finite)
-    resolution, solution = target, on(target)
-    while not solution.resolved and resolution.columns < most_columns(scene, finite):
-        resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, finite)
-        solution = on(resolution)
+    solution = steps_to(scene, solver, meshes)
+    resolution = needed(scene, solution.contact_fraction, solver.finite)
+    most = most_columns(scene, solver.finite)
+    while True:
+        solution = _solved(solver, resolution, meshes)
+        if solution.resolved or resolution.columns >= most:
+            break
+        resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, solver.finite)
     for _ in range(scene.numerics.refinements):
         error = discretisation_error(meshes)
         excess = error / allowance(solution) if error else 0.0
-        if excess <= 1.0 or resolution.columns >= most_columns(scene, finite):
+        if excess <= 1.0 or resolution.columns >= most:
             break
         factor = min(max(_MARGIN * excess ** (1.0 / ORDER), _LEAST), _MOST)
-        resolution = resolution.finer(scene, factor, finite)
-        solution = on(resolution)
+        resolution = resolution.finer(scene, factor, solver.finite)
+        solution = _solved(solver, resolution, meshes)
     return dataclasses.replace(solution, meshes=tuple(meshes))
+
+
+def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> Solution:
+    """Return the solution on a mesh about half as fine as the contact needs; ``meshes`` gets what was solved."""
+    resolution = solver.first()
+    solution = _solved(solver, resolution, meshes)
+    while True:
+        coarse = needed(scene, solution.contact_fraction, solver.finite).coarser(scene, solver.finite)
+        if coarse.columns <= _NEAR * resolution.columns:
+            return solution
+        stride = resolution.finer(scene, _STRIDE, solver.finite)
+        resolution = coarse if coarse.columns <= stride.columns else Resolution(stride.columns, coarse.growth)
+        solution = _solved(solver, resolution, meshes)
+
+
+def _solved(solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+    solution = solver.solve(resolution)
+    touching = int(np.count_nonzero(solution.contact.touching))
+    block = solution.block
+    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction))
+    return solution

@@ -40,7 +40,7 @@ class Numerics:
     first_row : float
         Height of the row at the road over the width of a column, at least 0.01.
     dilatation : {"auto", "pointwise", "mean"}
-        How the cells integrate dilatation; see ``rubfric.block.Block``.
+        How the cells integrate dilatation; see ``rubfric.block.Block``. Plane stress takes no ``mean``.
     folding : float
         Share of the accuracy that leaving out or gathering Prony branches may use, 0 to 1; 0 keeps them all.
     tolerance : float
@@ -51,12 +51,12 @@ class Numerics:
     """
 
     accuracy: float = 0.01
-    contact_nodes: int = 64
-    finite_contact_nodes: int = 32
-    columns_min: int = 256
-    finite_columns_min: int = 128
+    contact_nodes: int = 32
+    finite_contact_nodes: int = 16
+    columns_min: int = 128
+    finite_columns_min: int = 64
     columns_max: int = 32768
-    row_growth: float = 1.1
+    row_growth: float = 1.2
     refinements: int = 3
     first_row: float = 1.0
     dilatation: str = "auto"
@@ -131,6 +131,10 @@ class Scene:
         put(self, "aspect", checks.positive("aspect", self.aspect))
         checks.one_of("plane", self.plane, PLANES)
         checks.one_of("kinematics", self.kinematics, KINEMATICS)
+        if self.plane == "stress" and self.numerics.dilatation == "mean":
+            raise InvalidInput(
+                "numerics.dilatation is mean, but must be auto or pointwise in plane stress, where nothing locks"
+            )
         flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
         if self.aspect < flattest:
             raise InvalidInput(

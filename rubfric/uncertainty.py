@@ -12,7 +12,7 @@ from rubfric.solution import OnMesh, SteadySolution
 ORDER = 1.5
 # How many times the extrapolated change from mesh to mesh, and the difference between two routes, the error may be:
 # calibrated, see the page on accuracy.
-_CHANGE, _ROUTES = 2.0, 1.2
+_CHANGE, _ROUTES = 1.5, 1.3
 # A mesh hardly finer than another says nothing of it.
 _LEAST_RATIO = 1.1
 

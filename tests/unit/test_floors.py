@@ -16,7 +16,7 @@ WORKFLOW = PACKAGE.parent / "workflow"
 
 # Lowest first. A module may import from the floors below its own; those of figures also one another.
 FLOORS = [
-    {"errors", "arrays", "atomic"},
+    {"errors", "arrays", "atomic", "measured"},
     {"checks"},
     {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
@@ -35,14 +35,17 @@ FLOORS = [
     {"transient"},
     {"smallenergy", "finiteenergy"},
     {"energy", "cautions", "scalars"},
-    {"dataset"},
+    {"dataset", "converged"},
+    {"ladder", "calibration"},
+    {"trade"},
+    {"pages"},
     {"simulation", "summary", "marchdata"},
     {"multiscale"},
     {"collection"},
     {"tables"},
     {"figures"},
     {"campaign"},
-    {"sources"},
+    {"trials", "sources"},
     {"jobs", "warm", "cli"},
 ]
 MOST_LINES = 260
