@@ -22,6 +22,26 @@ def total_friction(friction: xr.DataArray) -> xr.DataArray:
     return total.assign_attrs(units="1", long_name="friction coefficient, sum over the scales")
 
 
+def total_error(error: xr.DataArray) -> xr.DataArray:
+    """Return a bound on the error of ``total_friction``: the sum over the scales of the absolute errors.
+
+    One rule makes the meshes of all scales, so that their errors may share a sign: they are not independent, and their
+    squares must not be added instead.
+
+    Parameters
+    ----------
+    error : xarray.DataArray
+        Absolute errors of friction coefficients, none negative, dimensionless, with a dimension ``scale``.
+
+    Returns
+    -------
+    xarray.DataArray
+        Without ``scale``; NaN wherever the error of any scale is unknown.
+    """
+    total = error.sum("scale", skipna=False)
+    return total.assign_attrs(units="1", long_name="bound on the estimated error of the sum over the scales, absolute")
+
+
 def scale_shares(friction: xr.DataArray) -> xr.DataArray:
     """Return each scale's share of ``total_friction``; NaN where the total is zero or unknown."""
     total = total_friction(friction)

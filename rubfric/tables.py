@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 
 import pandas as pd
 import xarray as xr
 
 from rubfric.atomic import whole
-from rubfric.multiscale import total_friction
+from rubfric.errors import BrokenResult
+from rubfric.multiscale import total_error, total_friction
 
 # variable: heading
 _COLUMNS = {
     "friction_coefficient": "friction_coefficient",
+    "friction_coefficient_error": "friction_coefficient_error",
     "friction_coefficient_dissipation": "friction_coefficient_dissipation",
     "friction_coefficient_contact": "friction_coefficient_contact",
     "energy_closure": "energy_closure",
@@ -33,7 +36,8 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
-    """Return all scenes of one scale, by aspect, pressure and speed."""
+    """Return all scenes of one scale, by aspect, pressure and speed; BrokenResult if the campaign lacks a column."""
+    _check(campaign, *_COLUMNS)
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
@@ -41,17 +45,51 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
 
 
 def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
-    """Return the friction of every scale and their sum, by pressure and speed, where all scales were run."""
+    """Return the friction of every scale, their sum and a bound on its error, where all scales were run.
+
+    By pressure and speed; BrokenResult if the campaign lacks a column.
+    """
+    _check(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
     friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
     total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
+    error = total_error(campaign["friction_coefficient_error"].sel(aspect=aspect, drop=True))
+    total["friction_total_error"] = error.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
     for scale in campaign["scale"].values:
         one = friction.sel(scale=scale, drop=True)
         total[f"friction_scale_{scale}"] = one.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
     pressed = campaign["nominal_compression"].sel(aspect=aspect, drop=True).max("scale")
     total["nominal_compression"] = pressed.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
-    table = total.dropna().reset_index()
+    table = total.dropna(subset=["friction_total"]).reset_index()
     scales = [name for name in table.columns if name.startswith("friction_scale_")]
-    return table[["velocity", "pressure", *scales, "friction_total", "nominal_compression"]].rename(columns=_AXES)
+    columns = ["velocity", "pressure", *scales, "friction_total", "friction_total_error", "nominal_compression"]
+    return table[columns].rename(columns=_AXES)
+
+
+def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:
+    """Return a table from a CSV file; an empty field, and nan, is a gap.
+
+    Parameters
+    ----------
+    path : path-like
+    words : sequence of str
+        Columns to keep as they are written, where the table has them: ``0.10`` stays ``0.10``, ``off`` is a word.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is no CSV table.
+    """
+    try:
+        return pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
+    except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
+        reason = " ".join(str(error).split())
+        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
+
+
+def _check(campaign: xr.Dataset, *variables: str) -> None:
+    lacking = [name for name in variables if name not in campaign]
+    if lacking:
+        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:

@@ -10,13 +10,16 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from rubfric.figures import panels, style
+from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import described, friction
+from rubfric.figures.selection import described, friction, friction_error
 
 
 @style.applied()
 def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
     """Draw the friction coefficient against speed, a line per ratio and a panel per scale and pressure.
+
+    Bands around the lines are the estimated errors; the legend tells the largest.
 
     Parameters
     ----------
@@ -37,20 +40,25 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     ------
     InvalidInput
         Where the campaign lacks what is asked for.
+    BrokenResult
+        For a campaign without estimated errors.
     """
     places = list(product(scales, pressures))
-    lines = {
-        (place, aspect): friction(campaign, scale=place[0], pressure=place[1], aspect=aspect)
-        for place, aspect in product(places, aspects)
-    }
+    blocks = list(product(places, aspects))
+    lines, errors = (
+        {(place, aspect): pick(campaign, scale=place[0], pressure=place[1], aspect=aspect) for place, aspect in blocks}
+        for pick in (friction, friction_error)
+    )
     figure, axes = panels.arrange(len(places), height=2.3)
     for panel, place in zip(axes, places, strict=True):
         for aspect, look in zip(aspects, style.lines(len(aspects)), strict=True):
-            line = lines[place, aspect]
+            line, error = lines[place, aspect], errors[place, aspect]
+            draw_band(panel, line["velocity"].values, line.values, error.values, look["color"])
             panel.plot(line["velocity"].values, line.values, label=style.written(aspect), **look)
     scale_speeds(axes[0], campaign["velocity"].values)
-    scale_friction(axes[0], np.concatenate([line.values for line in lines.values()]))
+    shown, bounds = (np.concatenate([one.values for one in found.values()]) for found in (lines, errors))
+    scale_friction(axes[0], upper(shown, bounds))
     panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    panels.legend_beside(figure, axes[0].get_lines(), "height-to-width\nratio (-)")
+    panels.legend_beside(figure, [*axes[0].get_lines(), band_handle(shown, bounds)], "height-to-width\nratio (-)")
     return figure

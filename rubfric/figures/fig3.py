@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from rubfric.figures import panels, style
+from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.scaling import NEGLIGIBLE, scale_decades, scale_friction, tick_at
-from rubfric.figures.selection import described, friction
+from rubfric.figures.selection import described, friction, friction_error
 
 Array = NDArray[np.float64]
 
@@ -29,7 +31,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     """Draw the friction coefficient against the height-to-width ratio, a line per speed; the ratio 0.75 is marked.
 
     The ordinate is logarithmic, so that the lines of all speeds show how much they still change; it is linear where a
-    friction coefficient is zero.
+    friction coefficient is zero. Bands around the lines are the estimated errors; the legend tells the largest.
 
     Parameters
     ----------
@@ -50,31 +52,40 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     ------
     InvalidInput
         Where the campaign lacks what is asked for.
+    BrokenResult
+        For a campaign without estimated errors.
     """
     places = list(product(scales, pressures))
     ratios = np.sort(np.asarray(aspects, dtype=np.float64))
     speeds = np.sort(campaign["velocity"].values)
-    tables = [_table(campaign, scale, pressure, ratios) for scale, pressure in places]
+    tables, errors = (
+        [_table(pick, campaign, scale, pressure, ratios) for scale, pressure in places]
+        for pick in (friction, friction_error)
+    )
     looks = style.lines(speeds.size)
     figure, axes = panels.arrange(len(places), height=2.7)
-    for panel, table in zip(axes, tables, strict=True):
-        for values, look in zip(table.T, looks, strict=True):
+    for panel, table, bounds in zip(axes, tables, errors, strict=True):
+        for values, error, look in zip(table.T, bounds.T, looks, strict=True):
+            draw_band(panel, ratios, values, error, look["color"])
             panel.plot(ratios, values, **look)
         panel.axvline(TYPICAL_RATIO, zorder=0.5, gid="typical", **_MARK)
     _scale_ratios(axes[0], ratios)
-    _scale_ordinate(axes[0], np.concatenate(tables))
+    _scale_ordinate(axes[0], np.concatenate(tables), np.concatenate(errors))
     panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
     panels.label(axes, "height-to-width ratio (-)", "friction coefficient (-)")
-    handles = [
+    handles: list[Artist] = [
         Line2D([], [], label=style.written(float(speed)), **look) for speed, look in zip(speeds, looks, strict=True)
     ]
+    handles.append(band_handle(np.concatenate(tables), np.concatenate(errors)))
     panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
     return figure
 
 
-def _table(campaign: xr.Dataset, scale: int, pressure: float, ratios: Array) -> Array:
-    """Return friction over ratio and speed."""
-    rows = [friction(campaign, scale=scale, pressure=pressure, aspect=float(ratio)).values for ratio in ratios]
+def _table(
+    pick: Callable[..., xr.DataArray], campaign: xr.Dataset, scale: int, pressure: float, ratios: Array
+) -> Array:
+    """Return friction, or its error, over ratio and speed."""
+    rows = [pick(campaign, scale=scale, pressure=pressure, aspect=float(ratio)).values for ratio in ratios]
     return np.stack(rows)
 
 
@@ -85,10 +96,10 @@ def _scale_ratios(panel: Axes, ratios: Array) -> None:
     tick_at(panel.xaxis, sorted({*ratios.tolist(), TYPICAL_RATIO}))
 
 
-def _scale_ordinate(panel: Axes, values: Array) -> None:
-    finite = values[np.isfinite(values)]
-    low, high = float(finite.min()), float(finite.max())
+def _scale_ordinate(panel: Axes, values: Array, errors: Array) -> None:
+    edges = upper(values, errors)
+    low, high = float(np.nanmin(values)), float(np.nanmax(edges))
     if low > NEGLIGIBLE:
         scale_decades(panel, low / 1.3, high * 1.3)
     else:
-        scale_friction(panel, values)
+        scale_friction(panel, edges)

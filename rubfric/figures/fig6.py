@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rubfric.figures import panels, style
+from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import friction
+from rubfric.figures.selection import friction, friction_error
 
 
 @style.applied()
@@ -28,33 +29,40 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Rings mark the largest of the sampled points of a line, where it lies between others.
+        Rings mark the largest of the sampled points of a line, where it lies between others. Bands around the lines
+        are the estimated errors; the legend tells the largest.
 
     Raises
     ------
     InvalidInput
         Where the campaign lacks the ratio, or has nothing at one of the scales.
+    BrokenResult
+        For a campaign without estimated errors.
     """
     grid = friction(campaign, aspect=aspect).dropna("pressure", how="all")
+    errors = friction_error(campaign, aspect=aspect).sel(pressure=grid["pressure"]).transpose(*grid.dims)
     scales = [int(scale) for scale in grid["scale"].values[::-1]]
     pressures = [float(pressure) for pressure in grid["pressure"].values]
     speeds = grid["velocity"].values
     fields = [friction(campaign, aspect=aspect, scale=scale) for scale in scales]
     looks = style.lines(len(pressures))
     figure, axes = panels.arrange(len(scales), height=2.1)
-    for (panel, field), (pressure, look) in product(zip(axes, fields, strict=True), zip(pressures, looks, strict=True)):
-        line = field.sel(pressure=pressure)
+    drawn = zip(axes, scales, fields, strict=True)
+    for (panel, scale, field), (pressure, look) in product(drawn, zip(pressures, looks, strict=True)):
+        line, error = field.sel(pressure=pressure), errors.sel(scale=scale, pressure=pressure)
         if line.notnull().any():
+            draw_band(panel, speeds, line.values, error.values, look["color"])
             panel.plot(speeds, line.values, **look)
             mark_peak(panel, speeds, line.values, look["color"])
     scale_speeds(axes[0], speeds)
-    scale_friction(axes[0], grid.values)
+    scale_friction(axes[0], upper(grid.values, errors.values))
     panels.entitle(axes, _titles(scales))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
     handles = [
         Line2D([], [], label=style.written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)
     ]
-    panels.legend_beside(figure, [*handles, *peak_handles(*axes)], "nominal pressure\n(MPa)")
+    marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
+    panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
     return figure
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -14,10 +13,11 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
+from rubfric.figures.bands import band_handle, draw_band, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import described, friction
-from rubfric.multiscale import total_friction
+from rubfric.figures.selection import described, friction, friction_error
+from rubfric.multiscale import total_error, total_friction
 
 _HEIGHT = 2.9
 # A speed without a neighbour is drawn this far to either side, as a factor.
@@ -41,12 +41,14 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     -------
     matplotlib.figure.Figure
         The finest scale lies at the bottom. A ring marks the largest of the sampled totals, where it lies
-        between others.
+        between others. The band around the total is a bound on its estimated error, which the legend tells too.
 
     Raises
     ------
     InvalidInput
         Where the campaign lacks the ratio or the pressure, or has no speed at which all scales were run.
+    BrokenResult
+        For a campaign without estimated errors.
     """
     shares = (
         friction(campaign, aspect=aspect, pressure=pressure)
@@ -62,16 +64,17 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     speeds = shares["velocity"].values
     figure = Figure(figsize=(style.COLUMN, _HEIGHT), layout="constrained")
     axes = figure.subplots()
+    error = total_error(friction_error(campaign, aspect=aspect, pressure=pressure)).values
     patches = _stack(axes, speeds, shares)
+    draw_band(axes, speeds, total, error, "black", zorder=2.5)
     (line,) = axes.plot(speeds, total, color="black", linewidth=1.7, marker="o", label="total", zorder=3, clip_on=False)
     mark_peak(axes, speeds, total, "black")
     scale_speeds(axes, speeds)
-    scale_friction(axes, total)
+    scale_friction(axes, upper(total, error))
     axes.set_xlabel("sliding speed (mm/s)")
     axes.set_ylabel("friction coefficient (-)")
-    panels.legend_above(
-        figure, [line, *peak_handles(axes), *patches[::-1]], described(pressure=pressure, aspect=aspect), 3
-    )
+    handles = [line, *peak_handles(axes), band_handle(total, error, "black"), *patches[::-1]]
+    panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 3)
     return figure
 
 
@@ -87,20 +90,13 @@ def _stack(axes: Axes, speeds: NDArray[np.float64], shares: xr.DataArray) -> lis
             "hatch": style.HATCHES[place % len(style.HATCHES)],
             "linewidth": 0.5,
         }
-        for run in _runs(known):
+        for run in runs(known):
             x, low, high = speeds[run], edges[place][run], edges[place + 1][run]
             if x.size == 1:
                 x, low, high = x * np.array([1.0 / _ALONE, _ALONE]), low.repeat(2), high.repeat(2)
             axes.fill_between(x, low, high, gid=f"scale {scale}", **look)
         patches.append(Patch(label=f"scale {scale}", **look))
     return patches
-
-
-def _runs(known: NDArray[np.bool_]) -> Iterator[slice]:
-    """Yield the stretches of neighbouring speeds that are known."""
-    steps = np.flatnonzero(np.diff(np.concatenate(([False], known, [False])).astype(np.int8)))
-    for start, stop in zip(steps[::2], steps[1::2], strict=True):
-        yield slice(int(start), int(stop))
 
 
 def _tints(count: int) -> list[tuple[float, ...]]:

@@ -13,6 +13,8 @@ from rubfric.errors import InvalidInput
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN
 
 _MOST_COLUMNS = 3
+# The height of a line of a legend, in inches.
+_LEGEND_LINE = 0.13
 
 
 def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Figure, list[Axes]]:
@@ -63,7 +65,16 @@ def letter(place: int) -> str:
 
 
 def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:
-    """Put one legend for all panels at the right of them, where it covers no data."""
+    """Put one legend for all panels at the right of them, where it covers no data; above one panel alone.
+
+    One panel is a column of a page wide and would be too narrow beside a legend: the figure grows in height instead.
+    """
+    if len(figure.axes) == 1:
+        lines = 1 + max(str(handle.get_label()).count("\n") for handle in handles)
+        rows = -(-len(handles) // _MOST_COLUMNS) - 1 + lines + 1
+        figure.set_figheight(figure.get_figheight() + _LEGEND_LINE * rows)
+        legend_above(figure, handles, title.replace("\n", " "), _MOST_COLUMNS)
+        return
     figure.legend(handles=list(handles), title=title, loc="outside right upper", alignment="left")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Iterator
@@ -70,6 +71,13 @@ HATCHES = ("////", "....", "\\\\\\\\", "xxxx", "----")
 _MAP = "plasma"
 _LIGHTEST = 0.76
 
+# Kinds without an order: the muted scheme of P. Tol (Colour Schemes, SRON/EPS/TN/09-002, 2021), which the colour-blind
+# tell apart, and an orange.
+_KINDS = (
+    *("#332288", "#cc6677", "#117733", "#882255", "#44aa99"),
+    *("#aa4499", "#999933", "#88ccee", "#ddaa33", "#e8601c"),
+)
+
 _METADATA: dict[str, dict[str, str | None]] = {
     "pdf": {"Creator": "rubfric", "CreationDate": None},
     "png": {},
@@ -109,6 +117,24 @@ def lines(count: int) -> list[dict[str, Any]]:
     return looks
 
 
+def kinds(count: int) -> list[dict[str, Any]]:
+    """Return the colour and marker of each of some kinds that have no order, as keywords of ``Axes.plot``.
+
+    They repeat after forty kinds.
+    """
+    looks = []
+    for place in range(count):
+        colour = _KINDS[place % len(_KINDS)]
+        face = "white" if place % 2 else colour
+        looks.append({"color": colour, "marker": _MARKERS[place % len(_MARKERS)], "markerfacecolor": face})
+    return looks
+
+
+def dashes(count: int) -> list[Any]:
+    """Return the dashes of each of some lines; they repeat after five."""
+    return [_DASHES[place % len(_DASHES)] for place in range(count)]
+
+
 def written(value: float) -> str:
     """Return a number as it is printed in figures: 0.1, 10, 1000, 10 000."""
     plain = f"{value:.12g}"
@@ -117,6 +143,16 @@ def written(value: float) -> str:
     whole, _, fraction = plain.partition(".")
     grouped = f"{int(whole):,}".replace(",", "\N{NO-BREAK SPACE}")
     return f"{grouped}.{fraction}" if fraction else grouped
+
+
+def percent(share: float) -> str:
+    """Return a share as it is printed in figures, with two digits at most, rounded up: 0.0123 is 1.3 %."""
+    value = 100.0 * share
+    if value <= 0.0 or not math.isfinite(value):
+        return f"{value:g}\N{NO-BREAK SPACE}%"
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    # What rounding adds to a number of two digits must not raise it.
+    return f"{written(min(unit, 1.0) * math.ceil(value / min(unit, 1.0) - 1e-9))}\N{NO-BREAK SPACE}%"
 
 
 def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
@@ -141,13 +177,13 @@ def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
             endings = " or ".join(f".{ending}" for ending in _METADATA)
             raise InvalidInput(f"a figure cannot be saved as {target}, but its name must end in {endings}")
     with applied():
-        _lay_out(figure)
+        lay_out(figure)
         for target in targets:
             _save_one(figure, target)
 
 
-def _lay_out(figure: Figure) -> None:
-    """Place the panels once for all files; matplotlib would do it twice for each."""
+def lay_out(figure: Figure) -> None:
+    """Place the panels for good, once for all files; matplotlib would do it twice for each."""
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rubfric.multiscale import scale_shares, total_friction
+from rubfric.multiscale import scale_shares, total_error, total_friction
 
 
 def friction(values: list[list[float]]) -> xr.DataArray:
@@ -28,6 +28,19 @@ def test_total_is_never_partial(missing: list[float]) -> None:
     total = total_friction(friction([[one, 0.1] for one in missing]))
     assert np.isnan(total.values[0])
     assert total.values[1] == pytest.approx(0.2)
+
+
+def test_errors_of_scales_add_up_to_a_bound() -> None:
+    total = total_error(friction([[0.01, 0.02], [0.03, 0.005]]))
+    assert total.values == pytest.approx([0.04, 0.025])
+    assert total.attrs["units"] == "1"
+    assert "bound" in total.attrs["long_name"]
+
+
+def test_unknown_error_of_a_scale_makes_the_bound_unknown() -> None:
+    total = total_error(friction([[np.nan, 0.02], [0.03, 0.005]]))
+    assert np.isnan(total.values[0])
+    assert total.values[1] == pytest.approx(0.025)
 
 
 def test_shares_add_up_to_one() -> None:

@@ -10,8 +10,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 
+from rubfric.errors import BrokenResult
 from rubfric.scalars import SCALARS
-from rubfric.tables import scale_table, total_table, write_table
+from rubfric.tables import read_table, scale_table, total_table, write_table
 
 SCALES, VELOCITIES, PRESSURES, ASPECTS = (1, 2), (0.1, 100.0, 10000.0), (0.5, 5.0), (0.5, 0.75)
 
@@ -31,6 +32,7 @@ def campaign() -> xr.Dataset:
     friction[1, :, :, 0] = np.nan
     scalars = {name: (tuple(axes), np.where(np.isnan(friction), np.nan, 3.0)) for name in SCALARS}
     scalars["friction_coefficient"] = (tuple(axes), friction)
+    scalars["friction_coefficient_error"] = (tuple(axes), 0.01 * friction)
     return xr.Dataset(scalars, coords={name: list(axis) for name, axis in axes.items()})
 
 
@@ -40,6 +42,7 @@ def test_headings_name_units_where_there_are_any(campaign: xr.Dataset) -> None:
         "pressure_MPa",
         "aspect",
         "friction_coefficient",
+        "friction_coefficient_error",
         "friction_coefficient_dissipation",
         "friction_coefficient_contact",
         "energy_closure",
@@ -80,6 +83,7 @@ def test_total_table_adds_up_its_scales(campaign: xr.Dataset) -> None:
         "friction_scale_1",
         "friction_scale_2",
         "friction_total",
+        "friction_total_error",
         "nominal_compression",
     ]
     places = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
@@ -88,6 +92,33 @@ def test_total_table_adds_up_its_scales(campaign: xr.Dataset) -> None:
     np.testing.assert_allclose(
         table["friction_total"], table["friction_scale_1"] + table["friction_scale_2"], rtol=1e-15
     )
+
+
+def test_tables_carry_the_errors(campaign: xr.Dataset) -> None:
+    for scale in SCALES:
+        table = scale_table(campaign, scale)
+        np.testing.assert_allclose(table["friction_coefficient_error"], 0.01 * table["friction_coefficient"])
+    total = total_table(campaign, 0.75)
+    np.testing.assert_allclose(total["friction_total_error"], 0.01 * total["friction_total"])
+
+
+def test_unknown_error_hides_no_friction(campaign: xr.Dataset) -> None:
+    place = {"scale": 2, "velocity": 100.0, "pressure": 5.0, "aspect": 0.75}
+    campaign["friction_coefficient_error"].loc[place] = np.nan
+    table = total_table(campaign, 0.75)
+    assert len(table) == 6
+    unknown = table[table["friction_total_error"].isna()]
+    assert unknown[["velocity_mm_per_s", "pressure_MPa"]].to_numpy().tolist() == [[100.0, 5.0]]
+    assert unknown["friction_total"].item() == pytest.approx(mu(1, 100.0, 5.0, 0.75) + mu(2, 100.0, 5.0, 0.75))
+
+
+def test_campaign_of_an_earlier_version_is_refused(campaign: xr.Dataset) -> None:
+    older = campaign.drop_vars("friction_coefficient_error")
+    complaint = r"^the campaign lacks friction_coefficient_error: gather the results of its scenes again$"
+    with pytest.raises(BrokenResult, match=complaint):
+        scale_table(older, 1)
+    with pytest.raises(BrokenResult, match=complaint):
+        total_table(older, 0.75)
 
 
 def test_total_table_leaves_out_what_lacks_a_scale(campaign: xr.Dataset) -> None:
@@ -103,7 +134,7 @@ def test_table_reads_back_with_six_digits(campaign: xr.Dataset, tmp_path: Path) 
     target = tmp_path / "tables" / "one.csv"
     write_table(table, target)
     pd.testing.assert_frame_equal(pd.read_csv(target), table, rtol=1e-5, check_dtype=False)
-    assert target.read_text().splitlines()[1].startswith("0.1,5,0.5,0.650001,3,")
+    assert target.read_text().splitlines()[1].startswith("0.1,5,0.5,0.650001,0.00650001,3,")
     assert [path.name for path in target.parent.iterdir()] == ["one.csv"]
 
 
@@ -121,3 +152,23 @@ def test_interrupted_write_keeps_the_older_table(
         write_table(scale_table(campaign, 1), target)
     assert [path.name for path in tmp_path.iterdir()] == ["one.csv"]
     assert target.read_text() == "older"
+
+
+def test_words_and_gaps_of_a_table_are_read_as_they_are_written(tmp_path: Path) -> None:
+    source = tmp_path / "ladder.csv"
+    source.write_text('rung,error,covered,note\n0.10,0.5,True,\nnone,nan,False,"slow, but right"\n')
+    table = read_table(source, ["rung", "note", "absent"])
+    assert table["rung"].tolist() == ["0.10", "none"]
+    assert table["error"].tolist()[0] == 0.5
+    assert np.isnan(table["error"].tolist()[1])
+    assert table["covered"].dtype == bool
+    assert table["note"].tolist()[1] == "slow, but right"
+
+
+@pytest.mark.parametrize("content", [None, b"", b"a,b\n1,2,3\n4\n5,6,7,8\n", b"\xff\xfe\x00"])
+def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> None:
+    source = tmp_path / "broken.csv"
+    if content is not None:
+        source.write_bytes(content)
+    with pytest.raises(BrokenResult, match=r"broken\.csv is no readable table: .*; delete it and run again$"):
+        read_table(source, [])

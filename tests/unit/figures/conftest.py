@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import combinations, product
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from rubfric.figures import style
+
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
+TableMaker = Callable[..., pd.DataFrame]
 
 SPEEDS = (0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0)
 
@@ -32,7 +37,10 @@ def make_campaign() -> CampaignMaker:
         # The peak lies at 1000 mm/s at scale 1, at 100 mm/s at scale 2, and so on.
         distance = np.log10(speed) - (4.0 - scale)
         friction = 0.1 * scale * (1.0 + 0.1 * pressure) * np.exp(-0.3 * distance**2) * (1.0 + 0.01 / aspect)
-        return xr.Dataset({"friction_coefficient": (tuple(axes), friction)}, coords=axes)
+        # 0.2 % at the slowest speed, and more the faster: 1.2 % at the last of six.
+        error = friction * 0.002 * np.arange(1.0, len(speeds) + 1.0)[:, None, None]
+        fields = {"friction_coefficient": friction, "friction_coefficient_error": error}
+        return xr.Dataset({name: (tuple(axes), field) for name, field in fields.items()}, coords=axes)
 
     return build
 
@@ -110,3 +118,72 @@ def series() -> Callable[[Axes], list[tuple[list[float], list[float]]]]:
         return [(list(map(float, line.get_xdata())), list(map(float, line.get_ydata()))) for line in lines]
 
     return read
+
+
+@pytest.fixture(scope="session")
+def make_ladder() -> TableMaker:
+    """Return a function that builds ladders of knobs: each rung divides the error by 4 and doubles the cost.
+
+    The presets begin four times as coarse as ``standard``; scenes differ by known factors around 1.
+    """
+
+    def build(knobs: Sequence[str] = ("preset", "mesh", "surface", "kinematics"), scenes: int = 3) -> pd.DataFrame:
+        named = {"preset": ("draft", "standard", "reference"), "kinematics": ("small", "finite", "auto")}
+        rows = []
+        for scene, knob in product(range(scenes), knobs):
+            factor = 1.5 ** (scene - (scenes - 1) / 2)
+            for place, rung in enumerate(named.get(knob, ("8", "16", "32", "64"))):
+                row = {"scene": f"scene {scene}", "knob": knob, "rung": rung}
+                row |= {"error": 0.04 * 4.0**-place * factor, "cost": 0.5 * 2.0**place, "note": ""}
+                row |= {"reference": 0.1 * (scene + 1), "reference_error": 2e-4 * 0.1 * (scene + 1)}
+                rows.append(row)
+        return pd.DataFrame(rows)
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def make_calibration() -> TableMaker:
+    """Return a function that builds runs whose estimates are 0.5, 2, 4 and 8 times their true errors, in each set."""
+
+    def build(sets: Sequence[str] = ("outside", "ladder", "inside"), kinematics: str = "finite") -> pd.DataFrame:
+        rows = []
+        for name, place in product(sets, range(4)):
+            error, ratio = 0.001 * 2.0**place, (0.5, 2.0, 4.0, 8.0)[place]
+            row = {"scene": f"scene {place}", "set": name, "kinematics": kinematics if place else "small"}
+            row |= {"error": error, "estimate": ratio * error, "ratio": ratio, "covered": ratio >= 1.0}
+            rows.append(row | {"reference": 0.2, "reference_error": 0.2 * 0.0002})
+        return pd.DataFrame(rows)
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def overlaps() -> Callable[[Figure], list[tuple[str, str]]]:
+    """Return a function that lists the pairs of words of a figure, as it is saved, that cover each other.
+
+    Words that leave the figure are paired with "the edge".
+    """
+
+    def find(figure: Figure) -> list[tuple[str, str]]:
+        with style.applied():
+            figure.draw_without_rendering()
+            edge = figure.bbox.padded(0.5)
+            boxes = [(text.get_text(), text.get_window_extent()) for text in _written(figure)]
+        pairs = [(one, other) for (one, a), (other, b) in combinations(boxes, 2) if a.padded(-0.5).overlaps(b)]
+        return pairs + [(one, "the edge") for one, a in boxes if not (edge.contains(*a.min) and edge.contains(*a.max))]
+
+    return find
+
+
+def _written(figure: Figure) -> list[Text]:
+    """Return the words that are seen: no tick labels beyond the limits of an axis."""
+    hidden = set()
+    for axis in (axis for panel in figure.findobj(Axes) for axis in (panel.xaxis, panel.yaxis)):
+        low, high = sorted(axis.get_view_interval())
+        for ticks in (axis.get_major_ticks(), axis.get_minor_ticks()):
+            for tick in ticks:
+                seen = low * (1 - 1e-9) <= tick.get_loc() <= high * (1 + 1e-9)
+                hidden |= {id(tick.label2)} | (set() if seen and tick.label1.get_visible() else {id(tick.label1)})
+    texts = [text for text in figure.findobj(Text) if text.get_text().strip() and text.get_visible()]
+    return [text for text in texts if id(text) not in hidden]

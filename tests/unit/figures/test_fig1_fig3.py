@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
-from rubfric.errors import InvalidInput
+from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig1, fig3, style
+from rubfric.figures.bands import bands
 
 Maker = Callable[..., xr.Dataset]
 ASPECTS = (0.25, 0.75, 1.5)
@@ -64,6 +66,60 @@ def test_fig3_says_what_it_shows_and_marks_the_typical_ratio(
         (mark,) = (line for line in panel.get_lines() if line.get_gid() == "typical")
         assert list(mark.get_xdata()) == [0.75, 0.75]
     assert 0.75 in figure.axes[0].get_xticks()
+
+
+@pytest.mark.parametrize(("module", "count"), [(fig1, 3), (fig3, 6)])
+def test_every_line_has_its_band(
+    make_campaign: Maker, module: ModuleType, count: int, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    figure = module.draw(campaign, [1], [0.5, 5.0], ASPECTS)
+    for panel, pressure in zip(figure.axes, (0.5, 5.0), strict=True):
+        one = campaign.sel(scale=1, pressure=pressure)
+        upper = (one["friction_coefficient"] + one["friction_coefficient_error"]).values
+        corners = np.concatenate([band.get_paths()[0].vertices for band in bands(panel)])
+        assert len(bands(panel)) == count
+        assert all(np.isclose(corners[:, 1], value, rtol=1e-12).any() for value in upper.flat)
+        assert panel.get_ylim()[1] > upper.max()
+    assert "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%" in words(figure)
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+def test_campaign_without_errors_is_refused(make_campaign: Maker, module: ModuleType) -> None:
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error, the est"):
+        module.draw(make_campaign().drop_vars("friction_coefficient_error"), [1], [5.0], ASPECTS)
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+@pytest.mark.parametrize("pressures", [(5.0,), (0.5, 5.0)])
+def test_no_words_cover_each_other(
+    make_campaign: Maker,
+    module: ModuleType,
+    pressures: tuple[float, ...],
+    overlaps: Callable[[Figure], list[tuple[str, str]]],
+    tmp_path: Path,
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = module.draw(campaign, [1], pressures, ASPECTS)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
+
+
+@pytest.mark.parametrize("module", [fig1, fig3])
+def test_unknown_and_huge_errors_are_drawn(
+    make_campaign: Maker, module: ModuleType, words: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 100.0}] = np.inf
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    campaign["friction_coefficient_error"].loc[{"velocity": 0.1}] = 2.0 * campaign["friction_coefficient"].sel(
+        velocity=0.1
+    )
+    figure = module.draw(campaign, [1], [5.0], ASPECTS)
+    assert "estimated error,\nat most 200\N{NO-BREAK SPACE}%,\nunknown at 6 of 18 points" in words(figure)
+    assert np.isfinite(figure.axes[0].get_ylim()).all()
+    style.save(figure, tmp_path / "unknown.png")
 
 
 def test_fig3_is_logarithmic_unless_a_friction_is_zero(make_campaign: Maker) -> None:

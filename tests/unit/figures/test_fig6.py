@@ -7,12 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from rubfric.errors import InvalidInput
+from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig6, style
+from rubfric.figures.bands import bands
 from rubfric.figures.peaks import rings
 
 Maker = Callable[..., xr.Dataset]
+
+
+def lines(panel: Axes) -> list[Line2D]:
+    return [line for line in panel.get_lines() if line.get_gid() is None]
 
 
 def test_panels_run_from_the_finest_scale_to_the_coarsest(make_campaign: Maker) -> None:
@@ -40,6 +49,42 @@ def test_peak_of_every_line_is_marked(make_campaign: Maker) -> None:
         assert marks == [(speed, value) for value in highest]
 
 
+def test_every_line_has_its_band(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"scale": 2, "pressure": 1.0, "velocity": 100.0, "aspect": 0.75}] = 0.5
+    figure = fig6.draw(campaign, 0.75)
+    for panel, scale in zip(figure.axes, (4, 3, 2, 1), strict=True):
+        drawn = bands(panel)
+        colours = [to_rgb(line.get_color()) for line in lines(panel)]
+        np.testing.assert_allclose([band.get_facecolor()[0][:3] for band in drawn], colours)
+        for band, pressure in zip(drawn, (0.5, 1.0, 5.0), strict=True):
+            corners = band.get_paths()[0].vertices
+            one = campaign.sel(scale=scale, pressure=pressure, aspect=0.75)
+            value, error = one["friction_coefficient"], one["friction_coefficient_error"]
+            for edge in (value - error, value + error):
+                wanted = np.stack((edge["velocity"].values, edge.values), axis=1)
+                assert all(np.isclose(corners, point).all(axis=1).any() for point in wanted)
+    # The largest error is told, and fits into the panel.
+    friction = campaign["friction_coefficient"].sel(scale=2, pressure=1.0, velocity=100.0, aspect=0.75).item()
+    assert f"estimated error,\nat most {style.percent(0.5 / friction)}" in words(figure)
+    assert figure.axes[0].get_ylim()[1] > friction + 0.5
+
+
+def test_no_words_cover_each_other(
+    make_campaign: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = fig6.draw(campaign, 0.75)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
+
+
+def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error"):
+        fig6.draw(make_campaign().drop_vars("friction_coefficient_error"), 0.75)
+
+
 def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
     said = words(fig6.draw(make_campaign(), 0.75))
     for text in ("sliding speed (mm/s)", "friction coefficient (-)", "nominal pressure\n(MPa)", "0.5", "sampled peak"):
@@ -57,7 +102,12 @@ def test_pressures_of_other_blocks_are_left_out(make_campaign: Maker) -> None:
     campaign["friction_coefficient"].loc[{"pressure": 1.0, "aspect": 0.75}] = np.nan
     figure = fig6.draw(campaign, 0.75)
     assert all(len(rings(panel)) == 2 for panel in figure.axes)
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0.5", "5", "sampled peak"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "0.5",
+        "5",
+        "sampled peak",
+        "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%",
+    ]
 
 
 def test_what_is_absent_is_refused(make_campaign: Maker) -> None:

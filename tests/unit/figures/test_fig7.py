@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from rubfric.errors import InvalidInput
+from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig7, style
+from rubfric.figures.bands import bands
 from rubfric.figures.peaks import rings
 
 Maker = Callable[..., xr.Dataset]
@@ -21,6 +23,8 @@ def areas(panel: Axes) -> dict[str, list[np.ndarray]]:
     """Return the corners of each scale's areas."""
     found: dict[str, list[np.ndarray]] = {}
     for area in panel.collections:
+        if area.get_gid() == "error":
+            continue
         found.setdefault(str(area.get_gid()), []).append(area.get_paths()[0].vertices)
     return found
 
@@ -58,7 +62,7 @@ def test_areas_lie_upon_each_other(make_campaign: Maker) -> None:
 
 def test_areas_are_told_apart_by_their_hatches(make_campaign: Maker) -> None:
     (panel,) = fig7.draw(make_campaign(), 0.75, 5.0).axes
-    assert len({area.get_hatch() for area in panel.collections}) == 4
+    assert len({area.get_hatch() for area in panel.collections if area.get_hatch()}) == 4
 
 
 def test_peak_of_the_total_is_marked(make_campaign: Maker) -> None:
@@ -82,6 +86,32 @@ def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., li
         "scale 4",
     ):
         assert text in said
+
+
+def test_band_is_the_sum_of_the_errors_of_the_scales(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
+    campaign = make_campaign()
+    figure = fig7.draw(campaign, 0.75, 5.0)
+    (band,) = bands(figure.axes[0])
+    (corners,) = (path.vertices for path in band.get_paths())
+    error = campaign["friction_coefficient_error"].sel(aspect=0.75, pressure=5.0).sum("scale")
+    for speed in campaign["velocity"].values:
+        assert thickness(corners, speed) == pytest.approx(2.0 * error.sel(velocity=speed).item())
+    assert "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%" in words(figure)
+
+
+def test_no_words_cover_each_other(
+    make_campaign: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+) -> None:
+    campaign = make_campaign()
+    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
+    figure = fig7.draw(campaign, 0.75, 5.0)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
+
+
+def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error"):
+        fig7.draw(make_campaign().drop_vars("friction_coefficient_error"), 0.75, 5.0)
 
 
 def test_gap_is_bridged_by_no_area(make_campaign: Maker, tmp_path: Path) -> None:

@@ -42,3 +42,16 @@ def test_one_panel_has_no_letter() -> None:
     _, axes = panels.arrange(2, height=2.0)
     panels.entitle(axes, ["scale 2", "scale 1"])
     assert [panel.get_title(loc="left") for panel in axes] == ["(a) scale 2", "(b) scale 1"]
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_legend_stands_beside_panels_but_above_one_alone(count: int) -> None:
+    figure, axes = panels.arrange(count, height=2.0)
+    handles = [axes[0].plot([0.0, 1.0], label=f"line {place}")[0] for place in range(5)]
+    panels.legend_beside(figure, handles, "two\nlines")
+    figure.draw_without_rendering()
+    legend, panel = figure.legends[0].get_window_extent(), axes[-1].get_window_extent()
+    assert (legend.x0 > panel.x1) == (count == 2)
+    assert (legend.y0 > panel.y1) == (count == 1)
+    assert (figure.get_figheight() > 2.0) == (count == 1)
+    assert panel.height > 0.5 * 2.0 * figure.dpi

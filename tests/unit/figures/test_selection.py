@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rubfric.errors import InvalidInput
-from rubfric.figures.selection import described, friction
+from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.figures.selection import described, friction, friction_error
 
 
 def test_line_is_picked_in_ascending_order(make_campaign: Callable[..., xr.Dataset]) -> None:
@@ -51,6 +51,26 @@ def test_other_datasets_are_refused(make_campaign: Callable[..., xr.Dataset]) ->
         friction(xr.Dataset())
     with pytest.raises(InvalidInput, match=r"^the friction coefficients of the campaign lack the axis aspect$"):
         friction(make_campaign().isel(aspect=0, drop=True))
+
+
+def test_errors_are_picked_like_friction(make_campaign: Callable[..., xr.Dataset]) -> None:
+    campaign = make_campaign()
+    place = {"scale": 2, "pressure": 5.0, "aspect": 0.75}
+    error = friction_error(campaign.isel(velocity=slice(None, None, -1)), **place)
+    np.testing.assert_array_equal(error["velocity"].values, friction(campaign, **place)["velocity"].values)
+    np.testing.assert_array_equal(error.values, campaign["friction_coefficient_error"].sel(place).values)
+    with pytest.raises(InvalidInput, match=r"^scale 5 is not in the campaign"):
+        friction_error(campaign, scale=5)
+
+
+def test_campaign_of_an_earlier_version_is_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
+    older = make_campaign().drop_vars("friction_coefficient_error")
+    complaint = (
+        r"^the campaign lacks the variable friction_coefficient_error, the estimated error: gather the results of its "
+        r"scenes again$"
+    )
+    with pytest.raises(BrokenResult, match=complaint):
+        friction_error(older, scale=2)
 
 
 def test_places_are_described_with_their_units() -> None:

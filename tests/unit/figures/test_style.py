@@ -161,3 +161,22 @@ def test_threads_draw_what_one_draws(tmp_path: Path) -> None:
     with ThreadPoolExecutor(4) as pool:
         contents = {path.read_bytes() for path in pool.map(draw, range(8))}
     assert len(contents) == 1
+
+
+@pytest.mark.parametrize(
+    ("share", "printed"),
+    [
+        (0.008, "0.8"),
+        (0.0123, "1.3"),
+        (0.05, "5"),
+        (0.071, "7.1"),
+        (0.123, "13"),
+        (0.00012345, "0.013"),
+        (1.0, "100"),
+        (2.001, "201"),
+        (0.0, "0"),
+        (float("inf"), "inf"),
+    ],
+)
+def test_percentages_are_rounded_up(share: float, printed: str) -> None:
+    assert style.percent(share) == f"{printed}\N{NO-BREAK SPACE}%"

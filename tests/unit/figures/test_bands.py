@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from rubfric.figures.bands import band_handle, bands, draw_band, runs, upper
+
+PLACES = np.array([1.0, 10.0, 100.0, 1000.0])
+NAN = float("nan")
+
+
+def test_band_lies_between_its_edges() -> None:
+    panel = Figure().subplots()
+    draw_band(panel, PLACES, np.array([0.1, 0.2, 0.3, 0.2]), np.array([0.01, 0.02, 0.03, 0.04]), "red")
+    (band,) = bands(panel)
+    corners = band.get_paths()[0].vertices
+    for place, low, high in zip(PLACES, (0.09, 0.18, 0.27, 0.16), (0.11, 0.22, 0.33, 0.24), strict=True):
+        heights = corners[corners[:, 0] == place, 1]
+        assert (heights.min(), heights.max()) == pytest.approx((low, high))
+    assert tuple(band.get_facecolor()[0][:3]) == to_rgb("red")
+    assert 0.0 < band.get_alpha() < 0.5
+
+
+def test_point_without_neighbours_has_a_bar() -> None:
+    panel = Figure().subplots()
+    draw_band(panel, PLACES, np.array([0.1, NAN, 0.3, 0.2]), np.array([0.01, 0.02, 0.03, 0.04]), "red")
+    bar, band = bands(panel)
+    np.testing.assert_allclose(bar.get_segments()[0], [[1.0, 0.09], [1.0, 0.11]])
+    assert band.get_paths()[0].vertices[:, 0].min() == 100.0
+
+
+def test_nothing_is_drawn_where_the_error_is_unknown() -> None:
+    panel = Figure().subplots()
+    draw_band(panel, PLACES, np.full(4, 0.1), np.array([NAN, np.inf, NAN, NAN]), "red")
+    assert bands(panel) == []
+
+
+@pytest.mark.parametrize(
+    ("values", "errors", "words"),
+    [
+        ([0.1, 0.2], [0.0005, 0.0016], "estimated error,\nat most 0.8\N{NO-BREAK SPACE}%"),
+        ([-0.1, 0.2], [0.0021, 0.002], "estimated error,\nat most 2.1\N{NO-BREAK SPACE}%"),
+        ([0.1, NAN], [0.001, NAN], "estimated error,\nat most 1\N{NO-BREAK SPACE}%"),
+        ([0.1, 0.0], [0.001, 0.5], "estimated error,\nat most 1\N{NO-BREAK SPACE}%"),
+        ([0.1, 0.2], [0.001, NAN], "estimated error,\nat most 1\N{NO-BREAK SPACE}%,\nunknown at 1 of 2 points"),
+        ([0.1, 0.2], [np.inf, NAN], "estimated error,\nunknown at 2 of 2 points"),
+        ([0.0, 0.0], [0.0, 0.0], "estimated error"),
+    ],
+)
+def test_legend_tells_the_largest_relative_error(values: list[float], errors: list[float], words: str) -> None:
+    assert band_handle(np.array(values), np.array(errors)).get_label() == words
+
+
+def test_upper_edges_are_known_where_errors_are_not() -> None:
+    edges = upper(np.array([0.1, 0.2, 0.3, NAN]), np.array([0.01, NAN, np.inf, 0.1]))
+    np.testing.assert_allclose(edges, [0.11, 0.2, 0.3, NAN])
+
+
+@pytest.mark.parametrize(
+    ("known", "stretches"),
+    [
+        ([True, True, True], [(0, 3)]),
+        ([False, True, False, True, True], [(1, 2), (3, 5)]),
+        ([False, False], []),
+        ([], []),
+    ],
+)
+def test_runs_are_the_stretches_of_what_is_known(known: list[bool], stretches: list[tuple[int, int]]) -> None:
+    assert [(run.start, run.stop) for run in runs(np.array(known, dtype=bool))] == stretches
