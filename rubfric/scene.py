@@ -31,11 +31,12 @@ class Numerics:
         Fewest surface nodes inside the contact, 4 to 4096; the number of columns follows from it. In finite strain
         the latter.
     columns_min, finite_columns_min, columns_max : int
-        Bounds on the number of columns of cells along one wavelength, multiples of 8. In finite strain the second.
+        Bounds on the number of columns of cells along one wavelength, multiples of 8 up to 2**20. In finite strain the
+        second.
     row_growth : float
         Ratio of the heights of neighbouring rows, away from the road, 1.00001 to 3.
     first_row : float
-        Height of the row at the road over the width of a column, at least 0.01.
+        Height of the row at the road over the width of a column, 0.01 to 100.
     output_columns : int
         Most columns of cells that the fields of the result file keep, a multiple of 8.
     """
@@ -58,11 +59,11 @@ class Numerics:
             put(self, name, checks.whole(at + name, getattr(self, name), 4))
             checks.at_most(at + name, getattr(self, name), 4096)
         for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
-            put(self, name, checks.multiple(at + name, getattr(self, name), 8))
+            put(self, name, checks.multiple(at + name, getattr(self, name), 8, 2**20))
         put(self, "row_growth", checks.at_least(at + "row_growth", self.row_growth, 1.00001))
         put(self, "first_row", checks.at_least(at + "first_row", self.first_row, 0.01))
+        checks.at_most(at + "first_row", self.first_row, 100.0)
         checks.at_most(at + "row_growth", self.row_growth, 3.0)
-        checks.at_most(at + "columns_max", self.columns_max, 2**20)
         checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 
 
@@ -104,7 +105,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        put(self, "scale", checks.whole("scale", self.scale, 1))
+        put(self, "scale", checks.whole("scale", self.scale, 1, 10**6))
         put(self, "velocity", checks.positive("velocity", self.velocity, "mm/s"))
         put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
         put(self, "aspect", checks.positive("aspect", self.aspect))
