@@ -34,6 +34,10 @@ _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
     *("grid", "aspect_study", "transient", "figures", "numerics", "presets", "rubbers", "roads"),
 )
+# What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
+_NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
+# Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
+_LONGEST_PATH, _LONGEST_NAME = 1000, 255
 
 
 @dataclass(frozen=True)
@@ -201,10 +205,12 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     for path in paths:
         try:
             entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        except (yaml.YAMLError, UnicodeDecodeError) as error:
+        except _NO_YAML as error:
             raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
         if not isinstance(entry, Mapping):
-            raise InvalidInput(f"{os.fspath(path)} holds {entry!r}, but must hold the keys {', '.join(_KEYS)}")
+            raise InvalidInput(
+                f"{os.fspath(path)} holds {checks.shown(entry)}, but must hold the keys {', '.join(_KEYS)}"
+            )
         merged = _overlay(merged, entry)
     return Campaign.from_config(merged)
 
@@ -221,7 +227,7 @@ def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any
 def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     entries = config[key]
     if not isinstance(entries, Mapping) or not entries:
-        raise InvalidInput(f"{key} is {entries!r}, but must hold at least one entry by name")
+        raise InvalidInput(f"{key} is {checks.shown(entries)}, but must hold at least one entry by name")
     for name in entries:
         checks.text(f"name in {key}", name)
     return entries
@@ -229,5 +235,10 @@ def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 def _folder(value: Any) -> str:
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-        raise InvalidInput(f"results is {value!r}, but must be the path of a folder, without braces")
+        raise InvalidInput(f"results is {checks.shown(value)}, but must be the path of a folder, without braces")
+    if len(os.fsencode(value)) > _LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > _LONGEST_NAME:
+        raise InvalidInput(
+            f"results is {checks.shown(value)}, but must be a path of at most {_LONGEST_PATH} letters, "
+            f"{_LONGEST_NAME} in each name"
+        )
     return value.rstrip("/") or "/"

@@ -74,7 +74,10 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
         reduced = _reduced(material, relaxed, frozen)
     except InvalidInput:  # a rubber so near to a liquid that its digits do not suffice
         return Folding(material, (), (), 0.0)
-    return Folding(reduced, relaxed, frozen, float(bound.max()))
+    # Nor may the digits of the new fractions, whose sum is taken from 1, change more than folding does.
+    change = np.abs(reduced.complex_shear_modulus(frequencies) - material.complex_shear_modulus(frequencies)) / loss
+    largest = float(max(bound.max(), change.max()))
+    return Folding(reduced, relaxed, frozen, largest) if largest <= tolerance else Folding(material, (), (), 0.0)
 
 
 def fold_scene(scene: Scene, harmonics: Whole) -> Folding:

@@ -32,13 +32,14 @@ class Numerics:
         Fewest surface nodes inside the contact on the first mesh that may suffice, 4 to 4096; the number of columns
         follows from it. In finite strain the latter.
     columns_min, finite_columns_min, columns_max : int
-        Bounds on the number of columns of cells along one wavelength, multiples of 8. In finite strain the second.
+        Bounds on the number of columns of cells along one wavelength, multiples of 8 up to 2**20. In finite strain the
+        second.
     row_growth : float
         Ratio of the heights of neighbouring rows on that mesh, away from the road, 1.00001 to 3.
     refinements : int
         Most finer meshes that may follow where the estimated error exceeds the accuracy, 0 to 12.
     first_row : float
-        Height of the row at the road over the width of a column, at least 0.01.
+        Height of the row at the road over the width of a column, 0.01 to 100.
     dilatation : {"auto", "pointwise", "mean"}
         How the cells integrate dilatation; see ``rubfric.block.Block``. Plane stress takes no ``mean``.
     folding : float
@@ -81,9 +82,8 @@ class Numerics:
             put(self, name, checks.whole(at + name, getattr(self, name), fewest))
             checks.at_most(at + name, getattr(self, name), highest)
         for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
-            put(self, name, checks.multiple(at + name, getattr(self, name), 8))
+            put(self, name, checks.multiple(at + name, getattr(self, name), 8, 2**20))
         checks.one_of(at + "dilatation", self.dilatation, DILATATIONS)
-        checks.at_most(at + "columns_max", self.columns_max, 2**20)
         checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 
 
@@ -125,7 +125,7 @@ class Scene:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        put(self, "scale", checks.whole("scale", self.scale, 1))
+        put(self, "scale", checks.whole("scale", self.scale, 1, 10**6))
         put(self, "velocity", checks.positive("velocity", self.velocity, "mm/s"))
         put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
         put(self, "aspect", checks.positive("aspect", self.aspect))
