@@ -22,6 +22,8 @@ from rubfric.arrays import Real, Whole
 from rubfric.cell import Quadrature, cell_products, cell_quadrature, dilatation_product, strain_product
 
 FEWEST_ROWS = 8
+# Rows whose heights would grow by less than this in all are even: no ratio can be found to more digits.
+_EVEN = 1e-9
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,7 @@ def graded_rows(height: float, first: float, growth: float) -> Real:
     first = min(first, height / FEWEST_ROWS)
     span = height / first
     rows = max(FEWEST_ROWS, math.ceil(math.log1p(span * (growth - 1.0)) / math.log(growth)))
-    if rows >= span:
+    if rows >= span * (1.0 - _EVEN):
         return np.linspace(0.0, height, rows + 1)
 
     def excess(logarithm: float) -> float:

@@ -17,7 +17,7 @@ from rubfric.folding import fold_scene
 from rubfric.homogeneous import pressed, stored_energy
 from rubfric.newton import Solved, Stalled
 from rubfric.prolongation import prolong
-from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
+from rubfric.resolvable import estimated_fraction, near_crest
 from rubfric.routes import ROUND_OFF, disagreement
 from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
@@ -30,11 +30,13 @@ _COARSE_NODES = 8
 # A mesh has at most this many times the columns of the one before.
 _REFINEMENT = 6
 _COLUMN_STEP = 8
+# The first guess of the contact: that of an elastic half-space, so many times as wide.
+_FIRST_GUESS = 3.0
 # Two routes to friction that differ by more than this share of the accuracy ask for so many times the columns.
 _CLOSURE, _FINER = 0.7, 1.5
 _MOST_FINER = 3
 # Columns beyond which a mesh in finite strain takes gigabytes.
-_MOST_COLUMNS = 4096
+MOST_COLUMNS = 4096
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
 _SHORTFALL = 0.1
 # Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
@@ -173,14 +175,12 @@ def _meshed(scene: Scene, columns: int, growth: float) -> tuple[SlidingContact, 
     material = fold_scene(scene, block.harmonics[1:]).material
     finite = FiniteBlock(block, material, scene.velocity)
     problem = SlidingContact(finite, measures(road), scene.name)
-    return problem, Start(finite.pressed(scene.pressure), np.ones(columns, dtype=bool))
+    return problem, Start(finite.pressed(scene.pressure), near_crest(columns, _FIRST_GUESS * estimated_fraction(scene)))
 
 
 def _first_columns(scene: Scene) -> int:
     """Return the columns of the first mesh, from the contact of an elastic half-space."""
-    filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-    fraction = float(westergaard_contact_fraction(scene.pressure / filling)) if filling > 0.0 else 1.0
-    needed = max(_COARSE_COLUMNS, _COARSE_NODES / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
+    needed = max(_COARSE_COLUMNS, _COARSE_NODES / estimated_fraction(scene), COLUMNS_PER_HEIGHT / scene.aspect)
     return _fit(scene, needed)
 
 
@@ -201,7 +201,7 @@ def _next_columns(scene: Scene, finite: FiniteBlock, solved: Solved, refined: in
 
 def _fit(scene: Scene, columns: float) -> int:
     steps = int(next_fast_len(math.ceil(columns / _COLUMN_STEP), real=True))
-    return min(_COLUMN_STEP * steps, scene.numerics.columns_max, _MOST_COLUMNS)
+    return min(_COLUMN_STEP * steps, scene.numerics.columns_max, MOST_COLUMNS)
 
 
 def _carry(touching: Flags, columns: int) -> Flags:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from rubfric.finitesteady import FiniteSolution, solve_finite
+from rubfric.finitesteady import MOST_COLUMNS, FiniteSolution, solve_finite
 from rubfric.kinematics import decide
+from rubfric.resolvable import require_resolvable
 from rubfric.scene import Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 
@@ -20,3 +21,18 @@ def solve(scene: Scene) -> SmallSolution | FiniteSolution:
     if decision.kinematics == "finite":
         return solve_finite(scene, decision)
     return solve_small(scene, decision)
+
+
+def require_contact(scene: Scene) -> None:
+    """Refuse a scene whose contact is too light for any mesh that it may have.
+
+    Raises
+    ------
+    InvalidInput
+        With the lightest pressure that is possible.
+    """
+    most = scene.numerics.columns_max
+    if decide(scene).kinematics == "finite":
+        require_resolvable(scene, min(most, MOST_COLUMNS), "small strain, which kinematics: auto takes here, has more")
+    else:
+        require_resolvable(scene, most, "raise numerics.columns_max")

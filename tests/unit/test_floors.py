@@ -21,7 +21,7 @@ FLOORS = [
     {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
-    {"folding", "cell", "finitestrain", "procedure", "saturation"},
+    {"folding", "cell", "finitestrain", "procedure", "saturation", "resolvable"},
     {"block", "branches"},
     {"smallstrain", "finiteblock", "surfacemodes"},
     {"strain", "contact", "circulant"},
@@ -41,9 +41,9 @@ FLOORS = [
     {"collection"},
     {"tables"},
     {"figures"},
-    {"campaign"},
+    {"campaign", "extremes", "verdict"},
     {"sources"},
-    {"jobs", "warm", "cli"},
+    {"jobs", "warm", "cli", "trial"},
 ]
 MOST_LINES = 260
 
