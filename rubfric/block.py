@@ -23,6 +23,8 @@ from rubfric.cell import Quadrature, cell_products, cell_quadrature, dilatation_
 
 # Fewest rows of a block: so many over the growth of its rows less one, but within these bounds.
 _ROWS_PER_GROWTH, _FEWEST_ROWS = 1.2, (4, 64)
+# Rows whose heights would grow by less than this in all are even: no ratio can be found to more digits.
+_EVEN = 1e-9
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def graded_rows(height: float, first: float, growth: float) -> Real:
     first = min(first, height / fewest)
     span = height / first
     rows = max(fewest, math.ceil(math.log1p(span * (growth - 1.0)) / math.log(growth)))
-    if rows >= span:
+    if rows >= span * (1.0 - _EVEN):
         return np.linspace(0.0, height, rows + 1)
 
     def excess(logarithm: float) -> float:

@@ -14,9 +14,9 @@ from rubfric.folding import fold_scene
 from rubfric.homogeneous import pressed, stored_energy
 from rubfric.newton import Solved, Stalled
 from rubfric.prolongation import prolong
-from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
 from rubfric.refinement import SHORTFALL, refined
 from rubfric.resolution import Resolution, fit, needed
+from rubfric.resolvable import estimated_fraction, near_crest
 from rubfric.routes import ROUND_OFF
 from rubfric.scene import Scene
 from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
@@ -24,6 +24,8 @@ from rubfric.solution import Decision, Friction, SteadySolution
 
 # The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
 _NODES, _FEWEST_NODES = 0.25, 6
+# The first guess of the contact: that of an elastic half-space, so many times as wide.
+_FIRST_GUESS = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,11 +104,11 @@ class FiniteSolver:
     def first(self) -> Resolution:
         """Return the mesh to begin with, from the contact of an elastic half-space."""
         scene = self.scene
-        filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-        fraction = float(westergaard_contact_fraction(scene.pressure / filling)) if filling > 0.0 else 1.0
         nodes = max(_FEWEST_NODES, _NODES * scene.numerics.finite_contact_nodes)
         coarse = needed(scene, 1.0, self.finite).coarser(scene, self.finite)
-        return Resolution(fit(scene, max(coarse.columns, nodes / fraction), self.finite), coarse.growth)
+        return Resolution(
+            fit(scene, max(coarse.columns, nodes / estimated_fraction(scene)), self.finite), coarse.growth
+        )
 
     def solve(self, resolution: Resolution) -> FiniteSolution:
         """Return the solution on a mesh."""
@@ -117,7 +119,8 @@ class FiniteSolver:
         problem = SlidingContact(finite, measures(scene.road), scene.name)
         solved = self._warm(problem)
         if solved is None:
-            flat = Start(finite.pressed(scene.pressure), np.ones(block.columns, dtype=bool))
+            near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
+            flat = Start(finite.pressed(scene.pressure), near)
             solved = reach(problem, flat, self._road, tolerance, history)
         self._before = finite, solved
         contact = solved.correction.contact

@@ -24,7 +24,7 @@ _STRIDE = 6.0
 # A mesh of nearly the columns of the coarse one stands in for it.
 _NEAR = 1.5
 # Smallest and largest refinement that an error asks for, and how much more than its estimate says.
-_LEAST, _MOST, _MARGIN = 1.25, 2.0, 1.1
+_LEAST, _MOST, _MARGIN = 1.5, 2.0, 1.1
 
 Solution = TypeVar("Solution", bound=SteadySolution, covariant=True)
 

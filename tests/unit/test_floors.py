@@ -21,7 +21,7 @@ FLOORS = [
     {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
-    {"folding", "cell", "finitestrain", "procedure", "saturation", "presets"},
+    {"folding", "cell", "finitestrain", "procedure", "saturation", "presets", "resolvable"},
     {"block", "branches"},
     {"smallstrain", "finiteblock", "surfacemodes", "resolution", "routes"},
     {"strain", "contact", "circulant"},
@@ -44,9 +44,9 @@ FLOORS = [
     {"collection"},
     {"tables"},
     {"figures"},
-    {"campaign"},
-    {"trials", "sources"},
-    {"jobs", "warm", "cli"},
+    {"campaign", "verdict"},
+    {"trials", "extremes", "sources"},
+    {"jobs", "warm", "cli", "trial"},
 ]
 MOST_LINES = 260
 
