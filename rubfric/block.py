@@ -21,7 +21,10 @@ from scipy.optimize import brentq
 from rubfric.arrays import Real, Whole
 from rubfric.cell import Quadrature, cell_products, cell_quadrature, dilatation_product, strain_product
 
-FEWEST_ROWS = 8
+# Fewest rows of a block: so many over the growth of its rows less one, but within these bounds.
+_ROWS_PER_GROWTH, _FEWEST_ROWS = 1.2, (4, 64)
+# Rows whose heights would grow by less than this in all are even: no ratio can be found to more digits.
+_EVEN = 1e-9
 
 
 @dataclass(frozen=True)
@@ -55,8 +58,10 @@ class Block:
     row_positions : ndarray, shape (rows + 1,)
         y of the rows of nodes, mm, from the road (0) to the top (H).
     plane : {"stress", "strain"}
-        Decides how dilatation is integrated: pointwise in plane stress, by its mean over each cell in plane
-        strain, where the pointwise form would lock as Poisson's ratio approaches 1/2.
+        Plane stress or plane strain.
+    dilatation : {"auto", "pointwise", "mean"}
+        How dilatation is integrated: point by point, by its mean over each cell, or (``auto``) pointwise in plane
+        stress and by its mean in plane strain, where the pointwise form would lock as Poisson's ratio approaches 1/2.
     """
 
     width: float
@@ -64,13 +69,27 @@ class Block:
     columns: int
     row_positions: Real
     plane: str
+    dilatation: str = "auto"
 
     @classmethod
     def graded(
-        cls, width: float, height: float, columns: int, plane: str, growth: float = 1.15, first_row: float = 1.0
+        cls,
+        width: float,
+        height: float,
+        columns: int,
+        plane: str,
+        growth: float = 1.15,
+        first_row: float = 1.0,
+        dilatation: str = "auto",
     ) -> Block:
         """Mesh a block: rows grow upwards by about ``growth`` from ``first_row`` column widths at the road."""
-        return cls(width, height, columns, graded_rows(height, first_row * width / columns, growth), plane)
+        rows = graded_rows(height, first_row * width / columns, growth)
+        return cls(width, height, columns, rows, plane, dilatation)
+
+    @property
+    def pointwise(self) -> bool:
+        """Whether dilatation counts point by point, rather than by its mean over each cell."""
+        return self.plane == "stress" if self.dilatation == "auto" else self.dilatation == "pointwise"
 
     @property
     def rows(self) -> int:
@@ -95,15 +114,15 @@ class Block:
     def operators(self) -> tuple[RowOperator, RowOperator]:
         """Return the operators of shear and of dilatation, to be weighed by the scene's moduli.
 
-        Plane stress: 2 eps : eps and tr tr. Plane strain: 2 e : e (deviator) and the product of the cells'
-        mean dilatations.
+        Plane stress: 2 eps : eps and tr tr. Plane strain: 2 e : e (deviator) and tr tr. The dilatation tr is that
+        at the points, or its mean over each cell.
         """
         cells = cell_products(np.diff(self.row_positions) / self.column_width)
         shear = 2.0 * strain_product(cells.full)
-        if self.plane == "stress":
-            return _harmonic(shear), _harmonic(dilatation_product(cells.full))
-        deviator = shear - 2.0 / 3.0 * dilatation_product(cells.full)
-        return _harmonic(deviator), _harmonic(dilatation_product(cells.mean))
+        dilatation = dilatation_product(cells.full if self.pointwise else cells.mean)
+        if self.plane == "strain":
+            shear -= 2.0 / 3.0 * dilatation_product(cells.full)
+        return _harmonic(shear), _harmonic(dilatation)
 
     def quadrature(self, centred: bool = False) -> Quadrature:
         """Return the quadrature of one column of cells, of 2 x 2 points or of two on the centre line."""
@@ -113,12 +132,13 @@ class Block:
 def graded_rows(height: float, first: float, growth: float) -> Real:
     """Return y of the rows of nodes, mm: heights grow by one ratio, as near to ``growth`` as fits.
 
-    The first row is ``first`` high, or less in a block so flat that it would leave fewer than eight rows.
+    The first row is ``first`` high, or less in a block so flat that it would leave fewer rows than ``fewest_rows``.
     """
-    first = min(first, height / FEWEST_ROWS)
+    fewest = fewest_rows(growth)
+    first = min(first, height / fewest)
     span = height / first
-    rows = max(FEWEST_ROWS, math.ceil(math.log1p(span * (growth - 1.0)) / math.log(growth)))
-    if rows >= span:
+    rows = max(fewest, math.ceil(math.log1p(span * (growth - 1.0)) / math.log(growth)))
+    if rows >= span * (1.0 - _EVEN):
         return np.linspace(0.0, height, rows + 1)
 
     def excess(logarithm: float) -> float:
@@ -128,6 +148,12 @@ def graded_rows(height: float, first: float, growth: float) -> Real:
     heights = ratio ** np.arange(rows)
     positions = np.concatenate(([0.0], np.cumsum(heights)))
     return positions * (height / positions[-1])
+
+
+def fewest_rows(growth: float) -> int:
+    """Return the fewest rows of a block: 12 at a growth of 1.1, and more the slower they grow, 4 to 64."""
+    low, high = _FEWEST_ROWS
+    return int(min(max(math.ceil(_ROWS_PER_GROWTH / (growth - 1.0) - 1e-9), low), high))
 
 
 def _harmonic(cells: Real) -> RowOperator:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from rubfric.arrays import Real
-from rubfric.finitestrain import XX, XY, YY, ZZ, contract
+from rubfric.finitestrain import XX, XY, YY, ZZ
 
 
 def excess(behind: Real, squared: Real, inverse: Real) -> Real:
@@ -34,9 +34,14 @@ def excess(behind: Real, squared: Real, inverse: Real) -> Real:
 
 
 def elongation(behind: Real, squared: Real, inverse: Real) -> Real:
-    """Return A : Cb - ln det A - 3, never negative: G / 2 times that is stored; arguments as for ``excess``."""
-    branch = inverse + behind
-    answer: Real = contract(branch, squared) - np.log(_determinant(branch)) - 3.0
+    """Return A : Cb - ln det A - 3, never negative: G / 2 times that is stored; arguments as for ``excess``.
+
+    Computed as tr M - ln det(1 + M) with M = D Cb, which loses few digits where D is small.
+    """
+    xx, xy, yx, yy = _product(behind, squared)
+    zz = behind[ZZ] * squared[ZZ]
+    plane = xx + yy + xx * yy - xy * yx
+    answer: Real = np.maximum(xx + yy + zz - np.log1p(plane + zz + plane * zz), 0.0)
     return answer
 
 
@@ -60,8 +65,3 @@ def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Rea
         one[XY] * other[XX] + one[YY] * other[XY],
         one[XY] * other[XY] + one[YY] * other[YY],
     )
-
-
-def _determinant(tensor: Real) -> Real:
-    determinant: Real = (tensor[XX] * tensor[YY] - tensor[XY] * tensor[XY]) * tensor[ZZ]
-    return determinant

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -26,13 +26,18 @@ from rubfric.choices import (
 )
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
+from rubfric.presets import read_numerics
 from rubfric.road import SineScale, scales_from_config
 from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "numerics", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "numerics", "presets", "rubbers", "roads"),
 )
+# What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
+_NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
+# Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
+_LONGEST_PATH, _LONGEST_NAME = 1000, 255
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,8 @@ class Campaign:
     transient : TransientChoice
     figures : FigureChoice
     numerics : Numerics
+    presets : dict of str to Numerics
+        Every preset, by name.
     """
 
     results: str
@@ -78,6 +85,7 @@ class Campaign:
     transient: TransientChoice
     figures: FigureChoice
     numerics: Numerics
+    presets: dict[str, Numerics]
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any]) -> Campaign:
@@ -90,6 +98,7 @@ class Campaign:
         grid = checks.known_keys("grid", config["grid"], keys, keys)
         velocities = checks.grid("grid.velocities", grid["velocities"], "mm/s")
         pressures = checks.grid("grid.pressures", grid["pressures"], "MPa")
+        numerics, presets = read_numerics(config["numerics"], config["presets"])
         return cls(
             results=_folder(config["results"]),
             material=materials[checks.one_of("rubber", config["rubber"], materials)],
@@ -103,7 +112,8 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
-            numerics=_read_numerics(config["numerics"]),
+            numerics=numerics,
+            presets=presets,
         )
 
     def scene(
@@ -195,10 +205,12 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     for path in paths:
         try:
             entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        except (yaml.YAMLError, UnicodeDecodeError) as error:
+        except _NO_YAML as error:
             raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
         if not isinstance(entry, Mapping):
-            raise InvalidInput(f"{os.fspath(path)} holds {entry!r}, but must hold the keys {', '.join(_KEYS)}")
+            raise InvalidInput(
+                f"{os.fspath(path)} holds {checks.shown(entry)}, but must hold the keys {', '.join(_KEYS)}"
+            )
         merged = _overlay(merged, entry)
     return Campaign.from_config(merged)
 
@@ -215,7 +227,7 @@ def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any
 def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     entries = config[key]
     if not isinstance(entries, Mapping) or not entries:
-        raise InvalidInput(f"{key} is {entries!r}, but must hold at least one entry by name")
+        raise InvalidInput(f"{key} is {checks.shown(entries)}, but must hold at least one entry by name")
     for name in entries:
         checks.text(f"name in {key}", name)
     return entries
@@ -223,10 +235,10 @@ def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 def _folder(value: Any) -> str:
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-        raise InvalidInput(f"results is {value!r}, but must be the path of a folder, without braces")
+        raise InvalidInput(f"results is {checks.shown(value)}, but must be the path of a folder, without braces")
+    if len(os.fsencode(value)) > _LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > _LONGEST_NAME:
+        raise InvalidInput(
+            f"results is {checks.shown(value)}, but must be a path of at most {_LONGEST_PATH} letters, "
+            f"{_LONGEST_NAME} in each name"
+        )
     return value.rstrip("/") or "/"
-
-
-def _read_numerics(entry: Any) -> Numerics:
-    keys = tuple(field.name for field in fields(Numerics))
-    return Numerics(**checks.known_keys("numerics", entry, keys, keys))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rubfric.solution import SteadySolution
+from rubfric.uncertainty import friction_error
 
 # Above this share of the shear-wave speed inertia would matter; the model has none.
 _SPEED_LIMIT = 0.3
@@ -36,6 +37,7 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
         found.append("The surface is about to fold: finer meshes will differ.")
     if closure > _CLOSURE_LIMIT:
         found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
+    found += _inaccurate(solution)
     if not solution.resolved:
         more = "raise numerics.columns_max"
         if solution.block.columns < scene.numerics.columns_max:
@@ -43,6 +45,17 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
         touching = np.count_nonzero(solution.contact.touching)
         found.append(f"Only {touching} surface nodes touch the road, fewer than asked for: {more}.")
     return found
+
+
+def _inaccurate(solution: SteadySolution) -> list[str]:
+    """Return that the accuracy asked for was not met, if so, and what would help."""
+    friction, error = abs(solution.friction.stress_power), friction_error(solution)
+    if error <= solution.scene.numerics.accuracy * friction or friction <= solution.friction.resolution:
+        return []
+    return [
+        f"The accuracy asked for, {solution.scene.numerics.accuracy:.2%}, is not met: the estimated error is "
+        f"{error / friction:.2%} after {len(solution.meshes)} meshes; raise numerics.refinements or columns_max."
+    ]
 
 
 def _small_strain(solution: SteadySolution) -> list[str]:

@@ -17,6 +17,10 @@ import numpy as np
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
+# Words that stand in file names, which have room for 255 bytes.
+LONGEST_WORD = 100
+# What a message shows of a wrong value.
+_MOST_SHOWN = 80
 # Bounds on every quantity that must be positive: their products stay far from overflow and underflow.
 SMALLEST, LARGEST = 1e-30, 1e30
 
@@ -24,9 +28,9 @@ SMALLEST, LARGEST = 1e-30, 1e30
 def number(key: str, value: Any) -> float:
     """Return ``value`` as a canonical finite float, or raise InvalidInput naming ``key``."""
     if isinstance(value, str):
-        raise InvalidInput(f"{key} is the text {value!r}, but must be a number{_yaml_hint(value)}")
+        raise InvalidInput(f"{key} is the text {shown(value)}, but must be a number{_yaml_hint(value)}")
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise InvalidInput(f"{key} is {value!r}, but must be a number")
+        raise InvalidInput(f"{key} is {shown(value)}, but must be a number")
     try:
         converted = float(value)
     except OverflowError:
@@ -83,17 +87,19 @@ def between(key: str, value: Any, low: float, high: float) -> float:
     return checked
 
 
-def whole(key: str, value: Any, low: int) -> int:
-    """Return a whole number of at least ``low``."""
+def whole(key: str, value: Any, low: int, high: int | None = None) -> int:
+    """Return a whole number of at least ``low`` and, where it is given, at most ``high``."""
     checked = number(key, value)
     if checked != int(checked) or checked < low:
         raise InvalidInput(f"{key} is {checked:g}, but must be a whole number of at least {low}")
+    if high is not None and checked > high:
+        raise InvalidInput(f"{key} is {checked:g}, but must be at most {high}")
     return int(checked)
 
 
-def multiple(key: str, value: Any, base: int) -> int:
-    """Return a positive whole multiple of ``base``."""
-    checked = whole(key, value, 1)
+def multiple(key: str, value: Any, base: int, high: int | None = None) -> int:
+    """Return a positive whole multiple of ``base``, of at most ``high`` where that is given."""
+    checked = whole(key, value, 1, high)
     if checked % base:
         raise InvalidInput(f"{key} is {checked}, but must be a multiple of {base}")
     return checked
@@ -103,7 +109,7 @@ def one_of(key: str, value: Any, allowed: Iterable[str]) -> str:
     """Return ``value`` if it is one of the words ``allowed``."""
     words = list(allowed)
     if value not in words:
-        raise InvalidInput(f"{key} is {value!r}, but must be one of {', '.join(words)}{_suggest(value, words)}")
+        raise InvalidInput(f"{key} is {shown(value)}, but must be one of {', '.join(words)}{_suggest(value, words)}")
     return str(value)
 
 
@@ -111,11 +117,11 @@ def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[
     """Return the mapping ``given`` if its keys are all ``allowed`` and none of ``required`` is missing."""
     names = list(allowed)
     if not isinstance(given, Mapping):
-        raise InvalidInput(f"{key} is {given!r}, but must hold the keys {', '.join(names)}")
+        raise InvalidInput(f"{key} is {shown(given)}, but must hold the keys {', '.join(names)}")
     for name in given:
         if name not in names:
             raise InvalidInput(
-                f"{key} has the unknown key {name!r}; allowed are {', '.join(names)}{_suggest(name, names)}"
+                f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{_suggest(name, names)}"
             )
     for name in required:
         if name not in given:
@@ -143,8 +149,19 @@ def grid(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
 def text(key: str, value: Any) -> str:
     """Return a word that is fit to stand in a file name."""
     if not isinstance(value, str) or not value or not all(c.isascii() and (c.isalnum() or c in "-_") for c in value):
-        raise InvalidInput(f"{key} is {value!r}, but must be a word of letters, digits, '-' and '_'")
+        raise InvalidInput(f"{key} is {shown(value)}, but must be a word of letters, digits, '-' and '_'")
+    if len(value) > LONGEST_WORD:
+        raise InvalidInput(f"{key} is {shown(value)}, {len(value)} letters long, but must have at most {LONGEST_WORD}")
     return value
+
+
+def shown(value: Any) -> str:
+    """Return a value as a message shows it, cut short where it is long."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # whole numbers of thousands of digits, for one
+        return f"a {type(value).__name__} too long to show"
+    return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
 
 
 def written(value: float) -> str:
@@ -164,5 +181,5 @@ def _unit(unit: str) -> str:
 
 
 def _suggest(value: Any, words: list[str]) -> str:
-    close = difflib.get_close_matches(str(value), words, n=1)
+    close = difflib.get_close_matches(shown(value).strip("'\""), words, n=1)
     return f" (did you mean {close[0]}?)" if close else ""

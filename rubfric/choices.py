@@ -10,6 +10,8 @@ from rubfric.errors import InvalidInput
 
 # What a march begins with: pressing in time, infinitely slow pressing, or steady sliding.
 STARTS = ("pressed", "relaxed", "steady")
+# Most columns of cells, most steps in a wavelength, and most steps of a march, whose records fill a gigabyte then.
+MOST_COLUMNS, MOST_STEPS_PER_WAVELENGTH, MOST_STEPS = 2**20, 2**16, 10**7
 
 
 @dataclass(frozen=True)
@@ -98,13 +100,14 @@ def read_transient(entry: Any, scales: int) -> TransientChoice:
     keys = tuple(field.name for field in fields(TransientChoice))
     checks.known_keys("transient", entry, keys, keys)
     saturation = checks.at_least("transient.saturation", entry["saturation"], 1e-6)
+    steps = checks.whole("transient.steps_per_wavelength", entry["steps_per_wavelength"], 4, MOST_STEPS_PER_WAVELENGTH)
     return TransientChoice(
         scale=scale_number("transient.scale", entry["scale"], scales),
         velocities=checks.grid("transient.velocities", entry["velocities"], "mm/s"),
         pressure=checks.positive("transient.pressure", entry["pressure"], "MPa"),
         start=checks.one_of("transient.start", entry["start"], STARTS),
-        columns=checks.multiple("transient.columns", entry["columns"], 8),
-        steps_per_wavelength=checks.whole("transient.steps_per_wavelength", entry["steps_per_wavelength"], 4),
-        wavelengths=checks.whole("transient.wavelengths", entry["wavelengths"], 1),
+        columns=checks.multiple("transient.columns", entry["columns"], 8, MOST_COLUMNS),
+        steps_per_wavelength=steps,
+        wavelengths=checks.whole("transient.wavelengths", entry["wavelengths"], 1, MOST_STEPS // steps),
         saturation=checks.at_most("transient.saturation", saturation, 0.5),
     )

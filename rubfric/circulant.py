@@ -75,8 +75,9 @@ class Circulant:
         moduli = _moduli(finite, stiffness)
         # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
         self._dilatation = _caused(volume, slope)
-        if finite.unknowns == 4:
+        if not finite.block.pointwise:
             self._dilatation = self._dilatation.mean(axis=1, keepdims=True)
+            weights = weights.sum(axis=0)
         if finite.unknowns == 5:
             moduli += volume[:, None] * volume * bulk
             self._yield = 1.0 / moduli[4, 4]
@@ -88,10 +89,10 @@ class Circulant:
             self._volume_force = _caused(volume * bulk, weighed)
             moduli = moduli[:4, :4] - give[:, None] * take
         else:
-            self._volume_force = self._dilatation.conj() * (bulk * weights.sum(axis=0))
+            self._volume_force = self._dilatation.conj() * (bulk * weights)
         cells = _cells(moduli, slope, weighed)
         if finite.unknowns == 4:
-            cells += self._dilatation[:, 0] * self._volume_force[:, None, 0]
+            cells += np.sum(self._dilatation * self._volume_force[:, None], axis=2)
         self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)

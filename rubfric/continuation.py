@@ -24,6 +24,11 @@ _SMALLEST_SHARE = 1e-4
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
 _LIGHT = 0.1
+# Work after which a scene is given up, in applications of the tangent times cells: some twenty seconds. A Newton step
+# costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
+_MOST_WORK, _PER_STEP, _PER_APPLICATION = 4.0e7, 10, 5000
+
+_SPENT = "a scene has only so much work, and this one has had it: most likely it has no solution under so heavy a load"
 
 
 @dataclass(frozen=True)
@@ -41,17 +46,23 @@ class History:
         self.lines: list[str] = []
         self.steps = 0
         self.krylov = 0
+        self.work = 0.0
 
-    def solved(self, what: str, solved: Solved) -> None:
+    def _count(self, problem: SlidingContact, steps: int, krylov: int) -> None:
+        self.steps += steps
+        self.krylov += krylov
+        block = problem.finite.block
+        applications = krylov + _PER_STEP * (steps + 1)
+        self.work += applications * (block.columns * block.rows + _PER_APPLICATION)
+
+    def solved(self, problem: SlidingContact, what: str, solved: Solved) -> None:
         """Record a success."""
-        self.steps += solved.steps
-        self.krylov += solved.krylov
+        self._count(problem, solved.steps, solved.krylov)
         self.lines.append(f"{what}: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
 
-    def left(self, what: str, stalled: Stalled) -> None:
+    def left(self, problem: SlidingContact, what: str, stalled: Stalled) -> None:
         """Record a failure."""
-        self.steps += stalled.steps
-        self.krylov += stalled.krylov
+        self._count(problem, stalled.steps, stalled.krylov)
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
 
@@ -101,17 +112,29 @@ def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, hi
             history.steps,
             stalled.residual,
             "distance from balance and contact, over the road's amplitude,",
+            "every way to a solution stalls: the road may be too steep, or the load too heavy, for the rubber",
         ) from stalled
 
 
 def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float, history: History, what: str) -> Solved:
-    """Run Newton's method once and record how it went; Stalled where it does."""
+    """Run Newton's method once and record how it went.
+
+    Raises
+    ------
+    Stalled
+        Where it does.
+    NotConverged
+        Where it does, and the scene has had all the work that it may have.
+    """
     try:
         solved = newton(problem, start.fields, road, start.touching, tolerance)
     except Stalled as stalled:
-        history.left(what, stalled)
+        history.left(problem, what, stalled)
+        if history.work > _MOST_WORK:
+            measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
+            raise NotConverged(problem.label, history.steps, stalled.residual, measure, _SPENT) from stalled
         raise
-    history.solved(what, solved)
+    history.solved(problem, what, solved)
     return solved
 
 

@@ -24,18 +24,22 @@ class NotConverged(RubfricError, RuntimeError):
         What was left, in the measure named by ``measure``.
     measure : str
         What ``residual`` counts, with its unit.
+    advice : str
+        What may help; nothing where the solver cannot tell.
     """
 
-    def __init__(self, scene: str, step: int, residual: float, measure: str) -> None:
-        # All four go to Exception, so that the error survives pickling between processes.
-        super().__init__(scene, step, residual, measure)
+    def __init__(self, scene: str, step: int, residual: float, measure: str, advice: str = "") -> None:
+        # All five go to Exception, so that the error survives pickling between processes.
+        super().__init__(scene, step, residual, measure, advice)
         self.scene = scene
         self.step = step
         self.residual = residual
         self.measure = measure
+        self.advice = advice
 
     def __str__(self) -> str:
-        return f"{self.scene}: not converged after {self.step} steps, {self.measure} is {self.residual:.3g}"
+        found = f"{self.scene}: not converged after {self.step} steps, {self.measure} is {self.residual:.3g}"
+        return f"{found}; {self.advice}" if self.advice else found
 
 
 class BrokenResult(RubfricError, OSError):

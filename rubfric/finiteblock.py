@@ -143,7 +143,7 @@ class FiniteBlock:
         return Fields(
             np.zeros((2, block.rows + 1, block.columns)),
             np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
-            np.ones((self.points if block.plane == "stress" else 1, block.rows, block.columns)),
+            np.ones((self.points if block.pointwise else 1, block.rows, block.columns)),
         )
 
     def pressed(self, pressure: float) -> Fields:
@@ -231,7 +231,7 @@ class FiniteBlock:
 
     def dilatation(self, volume: Real) -> Real:
         """Return a volume ratio at the points as the pressure sees it: its mean over each cell in plane strain."""
-        return volume if self.block.plane == "stress" else volume.mean(axis=0, keepdims=True)
+        return volume if self.block.pointwise else volume.mean(axis=0, keepdims=True)
 
     def convolve(self, kernel: Complex, field: Real) -> Real:
         """Return the convolution along the road of a field with a kernel given by its harmonics."""

@@ -47,6 +47,7 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
     volume = np.broadcast_to(finite.dilatation(state.volume), state.volume.shape)
     stored = volumetric_energy(material.long_term_bulk_modulus, volume)
     stored = stored + 0.5 * material.long_term_shear_modulus * (trace(squared) - 3.0)
+    stored = np.maximum(stored, 0.0)  # round-off, where the rubber is hardly strained
     lost = np.zeros_like(stored)
     branches = zip(
         material.branch_shear_moduli,

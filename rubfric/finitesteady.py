@@ -2,57 +2,30 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.fft import next_fast_len
 
 from rubfric.arrays import Flags, Real
-from rubfric.block import Block
 from rubfric.continuation import History, Start, attempt, reach
 from rubfric.finiteblock import Fields, FiniteBlock
 from rubfric.folding import fold_scene
 from rubfric.homogeneous import pressed, stored_energy
 from rubfric.newton import Solved, Stalled
 from rubfric.prolongation import prolong
-from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
-from rubfric.routes import ROUND_OFF, disagreement
-from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
+from rubfric.refinement import SHORTFALL, refined
+from rubfric.resolution import Resolution, fit, needed
+from rubfric.resolvable import estimated_fraction, near_crest
+from rubfric.routes import ROUND_OFF
+from rubfric.scene import Scene
 from rubfric.slidingcontact import Correction, Road, SlidingContact, measures
-from rubfric.solution import Decision, SteadySolution
+from rubfric.solution import Decision, Friction, SteadySolution
 
-# The first mesh: this many columns and this growth of its rows, or as many columns as put these nodes into contact.
-_COARSE_COLUMNS = 64
-_COARSE_GROWTH = 1.3
-_COARSE_NODES = 8
-# A mesh has at most this many times the columns of the one before.
-_REFINEMENT = 6
-_COLUMN_STEP = 8
-# Two routes to friction that differ by more than this share of the accuracy ask for so many times the columns.
-_CLOSURE, _FINER = 0.7, 1.5
-_MOST_FINER = 3
-# Columns beyond which a mesh in finite strain takes gigabytes.
-_MOST_COLUMNS = 4096
-# Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
-_SHORTFALL = 0.1
-# Distance from balance and contact at which a solution is one: root mean square, over the road's amplitude.
-_TOLERANCE = 1e-6
-
-
-@dataclass(frozen=True)
-class Friction:
-    """The friction coefficient by stress power and by contact, and what the solver cannot tell from zero."""
-
-    stress_power: float
-    contact: float
-    resolution: float
-
-    @property
-    def disagreement(self) -> float:
-        """Difference of the two over the larger one."""
-        return disagreement((self.stress_power, self.contact), self.resolution)
+# The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
+_NODES, _FEWEST_NODES = 0.25, 6
+# The first guess of the contact: that of an elastic half-space, so many times as wide.
+_FIRST_GUESS = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,8 +36,6 @@ class FiniteSolution(SteadySolution):
     ----------
     finite : FiniteBlock
         The block with its rubber, folded.
-    friction : Friction
-        The friction coefficient by two routes.
     fields : Fields
         Displacement and thickness.
     correction : Correction
@@ -72,7 +43,6 @@ class FiniteSolution(SteadySolution):
     """
 
     finite: FiniteBlock
-    friction: Friction
     fields: Fields
     correction: Correction
 
@@ -109,47 +79,82 @@ class FiniteSolution(SteadySolution):
 def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
     """Slide a block steadily over its scale of the road, in finite strain.
 
+    The mesh follows from the contact, and is refined as ``rubfric.refinement`` says.
+
     Raises
     ------
     NotConverged
         Where no way leads to a solution, with the scene's name, steps and residual.
     """
-    history = History()
-    numerics = scene.numerics
-    columns = _first_columns(scene)
-    problem, flat = _meshed(scene, columns, max(numerics.row_growth, _COARSE_GROWTH))
-    solved = reach(problem, flat, _road(scene), _TOLERANCE, history)
-    # The first mesh is coarse in depth, also where it has all the columns that are needed.
-    final, refined = numerics.row_growth >= _COARSE_GROWTH, 0
-    while (finer := _next_columns(scene, problem.finite, solved, refined)) > columns or not final:
-        columns, final, refined = finer, True, refined + 1
-        before, (problem, flat) = problem, _meshed(scene, columns, numerics.row_growth)
-        start = Start(
-            prolong(solved.fields, before.finite, problem.finite), _carry(solved.correction.contact.touching, columns)
+    return refined(scene, FiniteSolver(scene, decision))
+
+
+class FiniteSolver:
+    """Solves one scene on one mesh after the other, each from the solution on the one before."""
+
+    finite = True
+
+    def __init__(self, scene: Scene, decision: Decision) -> None:
+        self.scene = scene
+        self.decision = decision
+        self._road = Road(scene.road.amplitude, scene.road.wavenumber, scene.pressure)
+        self._history = History()
+        self._before: tuple[FiniteBlock, Solved] | None = None
+
+    def first(self) -> Resolution:
+        """Return the mesh to begin with, from the contact of an elastic half-space."""
+        scene = self.scene
+        nodes = max(_FEWEST_NODES, _NODES * scene.numerics.finite_contact_nodes)
+        coarse = needed(scene, 1.0, self.finite).coarser(scene, self.finite)
+        return Resolution(
+            fit(scene, max(coarse.columns, nodes / estimated_fraction(scene)), self.finite), coarse.growth
         )
+
+    def solve(self, resolution: Resolution) -> FiniteSolution:
+        """Return the solution on a mesh."""
+        scene, tolerance, history = self.scene, self.scene.numerics.tolerance, self._history
+        block = resolution.block(scene)
+        folding = fold_scene(scene, block.harmonics[1:])
+        finite = FiniteBlock(block, folding.material, scene.velocity)
+        problem = SlidingContact(finite, measures(scene.road), scene.name)
+        solved = self._warm(problem)
+        if solved is None:
+            near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
+            flat = Start(finite.pressed(scene.pressure), near)
+            solved = reach(problem, flat, self._road, tolerance, history)
+        self._before = finite, solved
+        contact = solved.correction.contact
+        wanted = (1.0 - SHORTFALL) * min(scene.numerics.finite_contact_nodes, block.columns)
+        return FiniteSolution(
+            scene=scene,
+            decision=self.decision,
+            folding=folding,
+            block=block,
+            friction=_friction(scene, finite, solved),
+            contact=contact,
+            iterations=history.steps,
+            krylov=history.krylov,
+            resolved=bool(np.count_nonzero(contact.touching) >= wanted),
+            history=tuple(history.lines),
+            finite=finite,
+            fields=solved.fields,
+            correction=solved.correction,
+        )
+
+    def _warm(self, problem: SlidingContact) -> Solved | None:
+        """Return the solution reached from that on the mesh before, or None."""
+        if self._before is None:
+            return None
+        finite, solved = self._before
+        columns = problem.finite.block.columns
+        start = Start(
+            prolong(solved.fields, finite, problem.finite), _carry(solved.correction.contact.touching, columns)
+        )
+        what = f"{columns} columns, from {finite.block.columns}"
         try:
-            what = f"{columns} columns, from {before.finite.block.columns}"
-            solved = attempt(problem, start, _road(scene), _TOLERANCE, history, what)
+            return attempt(problem, start, self._road, self.scene.numerics.tolerance, self._history, what)
         except Stalled:
-            solved = reach(problem, flat, _road(scene), _TOLERANCE, history)
-    contact = solved.correction.contact
-    wanted = (1.0 - _SHORTFALL) * min(numerics.finite_contact_nodes, columns)
-    block = problem.finite.block
-    return FiniteSolution(
-        scene=scene,
-        decision=decision,
-        folding=fold_scene(scene, block.harmonics[1:]),
-        block=block,
-        contact=contact,
-        iterations=history.steps,
-        krylov=history.krylov,
-        resolved=bool(np.count_nonzero(contact.touching) >= wanted),
-        history=tuple(history.lines),
-        finite=problem.finite,
-        friction=_friction(scene, problem.finite, solved),
-        fields=solved.fields,
-        correction=solved.correction,
-    )
+            return None
 
 
 def _friction(scene: Scene, finite: FiniteBlock, solved: Solved) -> Friction:
@@ -158,50 +163,8 @@ def _friction(scene: Scene, finite: FiniteBlock, solved: Solved) -> Friction:
     return Friction(
         stress_power=float(power / (scene.velocity * scene.pressure * block.width)),
         contact=float(np.mean(correction.contact.pressure * correction.slope) / scene.pressure),
-        resolution=max(_TOLERANCE * scene.road.steepest_slope, ROUND_OFF),
+        resolution=max(scene.numerics.tolerance * scene.road.steepest_slope, ROUND_OFF),
     )
-
-
-def _road(scene: Scene) -> Road:
-    return Road(scene.road.amplitude, scene.road.wavenumber, scene.pressure)
-
-
-def _meshed(scene: Scene, columns: int, growth: float) -> tuple[SlidingContact, Start]:
-    """Return the contact problem on a mesh, and its solution on a flat road."""
-    road = scene.road
-    block = Block.graded(road.wavelength, scene.height, columns, scene.plane, growth, scene.numerics.first_row)
-    material = fold_scene(scene, block.harmonics[1:]).material
-    finite = FiniteBlock(block, material, scene.velocity)
-    problem = SlidingContact(finite, measures(road), scene.name)
-    return problem, Start(finite.pressed(scene.pressure), np.ones(columns, dtype=bool))
-
-
-def _first_columns(scene: Scene) -> int:
-    """Return the columns of the first mesh, from the contact of an elastic half-space."""
-    filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-    fraction = float(westergaard_contact_fraction(scene.pressure / filling)) if filling > 0.0 else 1.0
-    needed = max(_COARSE_COLUMNS, _COARSE_NODES / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
-    return _fit(scene, needed)
-
-
-def _next_columns(scene: Scene, finite: FiniteBlock, solved: Solved, refined: int) -> int:
-    """Return the columns of the mesh to follow; no more than there are where the contact is resolved.
-
-    ``refined`` meshes have followed the first one already.
-    """
-    numerics, columns = scene.numerics, finite.block.columns
-    touching = int(np.count_nonzero(solved.correction.contact.touching))
-    needed = float(numerics.finite_columns_min)
-    if touching < (1.0 - _SHORTFALL) * min(numerics.finite_contact_nodes, columns):
-        needed = max(needed, numerics.finite_contact_nodes * columns / touching)
-    elif refined <= _MOST_FINER and _friction(scene, finite, solved).disagreement > _CLOSURE * numerics.accuracy:
-        needed = max(needed, _FINER * columns)
-    return max(columns, _fit(scene, min(needed, _REFINEMENT * columns)))
-
-
-def _fit(scene: Scene, columns: float) -> int:
-    steps = int(next_fast_len(math.ceil(columns / _COLUMN_STEP), real=True))
-    return min(_COLUMN_STEP * steps, scene.numerics.columns_max, _MOST_COLUMNS)
 
 
 def _carry(touching: Flags, columns: int) -> Flags:

@@ -17,8 +17,6 @@ from rubfric.errors import InvalidInput
 from rubfric.material import Material
 from rubfric.scene import Scene
 
-# Share of the accuracy asked for that folding may use up.
-_SHARE = 0.01
 # Relaxation time, s, of the branch that never relaxes.
 _NEVER = 1e30
 
@@ -76,13 +74,16 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
         reduced = _reduced(material, relaxed, frozen)
     except InvalidInput:  # a rubber so near to a liquid that its digits do not suffice
         return Folding(material, (), (), 0.0)
-    return Folding(reduced, relaxed, frozen, float(bound.max()))
+    # Nor may the digits of the new fractions, whose sum is taken from 1, change more than folding does.
+    change = np.abs(reduced.complex_shear_modulus(frequencies) - material.complex_shear_modulus(frequencies)) / loss
+    largest = float(max(bound.max(), change.max()))
+    return Folding(reduced, relaxed, frozen, largest) if largest <= tolerance else Folding(material, (), (), 0.0)
 
 
 def fold_scene(scene: Scene, harmonics: Whole) -> Folding:
     """Fold the branches that the harmonics of a scene do not need, within its accuracy."""
     frequencies = harmonics * scene.road.excitation_frequency(scene.velocity)
-    return fold(scene.material, frequencies, _SHARE * scene.numerics.accuracy)
+    return fold(scene.material, frequencies, scene.numerics.folding * scene.numerics.accuracy)
 
 
 def _reduced(material: Material, relaxed: tuple[int, ...], frozen: tuple[int, ...]) -> Material:

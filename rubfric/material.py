@@ -204,7 +204,7 @@ class Material:
 
 def _positive_list(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
     if not isinstance(values, (list, tuple)):
-        raise InvalidInput(f"{key} is {values!r}, but must be a list of numbers")
+        raise InvalidInput(f"{key} is {checks.shown(values)}, but must be a list of numbers")
     return tuple(checks.positive(f"{key}[{index}]", value, unit) for index, value in enumerate(values))
 
 

@@ -95,9 +95,28 @@ def newton(
     Raises
     ------
     Stalled
-        Where the residual no longer falls, a point is turned inside out, or the linearised contact has no solution.
+        Where the residual no longer falls, a point is turned inside out, numbers overflow, or the linearised contact
+        has no solution.
     """
     residuals: list[float] = []
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
+            return _iterate(problem, start, road, touching, tolerance, circulant, worth, residuals)
+    except FloatingPointError as error:  # fields too far off for arithmetic
+        raise Stalled(str(error), len(residuals), 0, residuals[-1] if residuals else np.inf) from error
+
+
+def _iterate(
+    problem: SlidingContact,
+    start: Fields,
+    road: Road,
+    touching: Flags,
+    tolerance: float,
+    circulant: Circulant | None,
+    worth: int,
+    residuals: list[float],
+) -> Solved:
+    """Do what ``newton`` does, and keep the sizes of u - T(u) in ``residuals``."""
     fields, correction, krylov = start, None, 0
     while True:
         steps = max(0, len(residuals) - 1)
@@ -168,7 +187,7 @@ def _advance(
         moved = fields.moved(direction, share)
         try:
             ahead = problem.correct(circulant, moved, road, correction.contact.touching)
-        except (Inverted, NotConverged, np.linalg.LinAlgError):
+        except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
             pass
         else:
             if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:

@@ -13,7 +13,7 @@ import numpy as np
 
 from rubfric import checks
 from rubfric.arrays import Real, Whole
-from rubfric.choices import STARTS
+from rubfric.choices import MOST_COLUMNS, MOST_STEPS, MOST_STEPS_PER_WAVELENGTH, STARTS
 from rubfric.errors import InvalidInput
 from rubfric.scene import Scene
 
@@ -63,12 +63,14 @@ class Procedure:
     def __post_init__(self) -> None:
         at = "procedure."
         checks.one_of(at + "start", self.start, STARTS)
-        checks.multiple(at + "columns", self.columns, 8)
+        checks.multiple(at + "columns", self.columns, 8, MOST_COLUMNS)
         for name in ("loading_time", "hold_time"):
             if getattr(self, name) is not None:
                 checks.positive(at + name, getattr(self, name), "s")
-        for name, least in (("loading_steps", 1), ("hold_steps", 0), ("steps_per_wavelength", 4), ("wavelengths", 1)):
-            checks.whole(at + name, getattr(self, name), least)
+        for name, least in (("loading_steps", 1), ("hold_steps", 0)):
+            checks.whole(at + name, getattr(self, name), least, MOST_STEPS)
+        steps = checks.whole(at + "steps_per_wavelength", self.steps_per_wavelength, 4, MOST_STEPS_PER_WAVELENGTH)
+        checks.whole(at + "wavelengths", self.wavelengths, 1, MOST_STEPS // steps)
         for name in ("start_share", "saturation"):
             checks.at_least(at + name, getattr(self, name), 0.0)
 

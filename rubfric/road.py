@@ -60,7 +60,7 @@ class SineScale:
 def scales_from_config(name: str, entry: Any) -> tuple[SineScale, ...]:
     """Read one entry of ``roads``, a list of scales from coarse to fine; InvalidInput names what is wrong."""
     if not isinstance(entry, (list, tuple)) or not entry:
-        raise InvalidInput(f"roads.{name} is {entry!r}, but must be a list of at least one scale")
+        raise InvalidInput(f"roads.{name} is {checks.shown(entry)}, but must be a list of at least one scale")
     scales = []
     for index, scale in enumerate(entry):
         at = f"roads.{name}[{index}]"

@@ -10,11 +10,19 @@ from rubfric.arrays import Real
 
 # Friction below this is the difference of forces that cancel, and round-off.
 ROUND_OFF = 1e-11
+# Routes to one number that differ by more than the first are no number; nor, if it is larger than the second, by more
+# than so many times the accuracy asked for.
+MOST_CLOSURE, _LEAST_CLOSURE, _ACCURACIES = 0.25, 0.05, 5.0
 
 
 def disagreement(routes: tuple[float, ...], resolution: float) -> float:
     """Return the largest difference between routes to one number over the largest of them, or over ``resolution``."""
     return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), resolution)
+
+
+def most_closure(accuracy: float) -> float:
+    """Return how far routes to friction may differ where it is asked for with some accuracy: 5 % for 1 %."""
+    return min(MOST_CLOSURE, max(_LEAST_CLOSURE, _ACCURACIES * accuracy))
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,16 @@ import numpy as np
 
 from rubfric.routes import Energies
 from rubfric.solution import SteadySolution
+from rubfric.uncertainty import friction_error
 
 # name: (unit, long name); the scalars of every result, in the order in which they are shown
 SCALARS: dict[str, tuple[str, str]] = {
     "friction_coefficient": ("1", "friction coefficient from stress power"),
     "friction_coefficient_dissipation": ("1", "friction coefficient from viscous dissipation"),
     "friction_coefficient_contact": ("1", "friction coefficient from contact pressure and road slope"),
+    "friction_coefficient_error": ("1", "estimated error of the friction coefficient, absolute"),
     "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
+    "friction_resolution": ("1", "friction that the solver cannot tell from zero"),
     "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
     "maximum_contact_pressure": ("MPa", "largest contact pressure"),
     "maximum_local_contact_pressure": ("MPa", "largest contact pressure per deformed area"),
@@ -28,6 +31,7 @@ SCALARS: dict[str, tuple[str, str]] = {
     "effective_poissons_ratio": ("1", "real part of the complex Poisson's ratio at the excitation frequency"),
     "shear_wave_speed_ratio": ("1", "sliding speed over shear-wave speed at the excitation frequency"),
     "excitation_frequency": ("rad s-1", "angular frequency at which the road excites the rubber"),
+    "meshes": ("1", "meshes that the scene was solved on, from coarse to fine"),
     "columns": ("1", "cells along one wavelength of the mesh that was solved"),
     "rows": ("1", "cells over the height of the mesh that was solved"),
     "contact_nodes": ("1", "surface nodes in contact"),
@@ -50,7 +54,9 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
         "friction_coefficient": energies.stress_power,
         "friction_coefficient_dissipation": energies.dissipation,
         "friction_coefficient_contact": energies.contact,
+        "friction_coefficient_error": friction_error(solution),
         "energy_closure": energies.closure,
+        "friction_resolution": energies.resolution,
         "contact_fraction": solution.contact_fraction,
         "maximum_contact_pressure": float(contact.pressure.max()),
         "maximum_local_contact_pressure": float((contact.pressure / solution.surface_stretch).max()),
@@ -64,6 +70,7 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
         "effective_poissons_ratio": float(scene.material.effective_poissons_ratio(frequency)),
         "shear_wave_speed_ratio": float(scene.velocity / scene.material.shear_wave_speed(frequency)),
         "excitation_frequency": frequency,
+        "meshes": len(solution.meshes),
         "columns": solution.block.columns,
         "rows": solution.block.rows,
         "contact_nodes": int(np.count_nonzero(contact.touching)),

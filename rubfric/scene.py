@@ -14,6 +14,7 @@ from rubfric.material import PLANES, Material
 from rubfric.road import SineScale
 
 KINEMATICS = ("small", "finite", "auto")
+DILATATIONS = ("auto", "pointwise", "mean")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
 
@@ -25,44 +26,64 @@ class Numerics:
     Parameters
     ----------
     accuracy : float
-        Relative accuracy of friction asked for, 1e-6 to 0.5: it decides between small and finite strain, and which
-        Prony branches a scene needs. The mesh follows from the numbers below.
+        Relative accuracy of friction asked for, 1e-6 to 0.5: it decides between small and finite strain, which
+        Prony branches a scene needs, and whether the first mesh suffices.
     contact_nodes, finite_contact_nodes : int
-        Fewest surface nodes inside the contact, 4 to 4096; the number of columns follows from it. In finite strain
-        the latter.
+        Fewest surface nodes inside the contact on the first mesh that may suffice, 4 to 4096; the number of columns
+        follows from it. In finite strain the latter.
     columns_min, finite_columns_min, columns_max : int
-        Bounds on the number of columns of cells along one wavelength, multiples of 8. In finite strain the second.
+        Bounds on the number of columns of cells along one wavelength, multiples of 8 up to 2**20. In finite strain the
+        second.
     row_growth : float
-        Ratio of the heights of neighbouring rows, away from the road, 1.00001 to 3.
+        Ratio of the heights of neighbouring rows on that mesh, away from the road, 1.00001 to 3.
+    refinements : int
+        Most finer meshes that may follow where the estimated error exceeds the accuracy, 0 to 12.
     first_row : float
-        Height of the row at the road over the width of a column, at least 0.01.
+        Height of the row at the road over the width of a column, 0.01 to 100.
+    dilatation : {"auto", "pointwise", "mean"}
+        How the cells integrate dilatation; see ``rubfric.block.Block``. Plane stress takes no ``mean``.
+    folding : float
+        Share of the accuracy that leaving out or gathering Prony branches may use, 0 to 1; 0 keeps them all.
+    tolerance : float
+        Distance from balance and contact at which finite strain is solved, root mean square over the amplitude of
+        the road, 1e-12 to 1e-2.
     output_columns : int
         Most columns of cells that the fields of the result file keep, a multiple of 8.
     """
 
     accuracy: float = 0.01
-    contact_nodes: int = 64
-    finite_contact_nodes: int = 32
-    columns_min: int = 256
-    finite_columns_min: int = 128
+    contact_nodes: int = 32
+    finite_contact_nodes: int = 16
+    columns_min: int = 128
+    finite_columns_min: int = 64
     columns_max: int = 32768
-    row_growth: float = 1.1
+    row_growth: float = 1.2
+    refinements: int = 3
     first_row: float = 1.0
+    dilatation: str = "auto"
+    folding: float = 0.01
+    tolerance: float = 1e-6
     output_columns: int = 128
 
     def __post_init__(self) -> None:
         at, put = "numerics.", object.__setattr__
-        put(self, "accuracy", checks.at_least(at + "accuracy", self.accuracy, 1e-6))
-        checks.at_most(at + "accuracy", self.accuracy, 0.5)
-        for name in ("contact_nodes", "finite_contact_nodes"):
-            put(self, name, checks.whole(at + name, getattr(self, name), 4))
-            checks.at_most(at + name, getattr(self, name), 4096)
+        ranges = {
+            "accuracy": (1e-6, 0.5),
+            "row_growth": (1.00001, 3.0),
+            "first_row": (0.01, 100.0),
+            "folding": (0.0, 1.0),
+            "tolerance": (1e-12, 1e-2),
+        }
+        for name, (least, most) in ranges.items():
+            put(self, name, checks.at_least(at + name, getattr(self, name), least))
+            checks.at_most(at + name, getattr(self, name), most)
+        counts = {"contact_nodes": (4, 4096), "finite_contact_nodes": (4, 4096), "refinements": (0, 12)}
+        for name, (fewest, highest) in counts.items():
+            put(self, name, checks.whole(at + name, getattr(self, name), fewest))
+            checks.at_most(at + name, getattr(self, name), highest)
         for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
-            put(self, name, checks.multiple(at + name, getattr(self, name), 8))
-        put(self, "row_growth", checks.at_least(at + "row_growth", self.row_growth, 1.00001))
-        put(self, "first_row", checks.at_least(at + "first_row", self.first_row, 0.01))
-        checks.at_most(at + "row_growth", self.row_growth, 3.0)
-        checks.at_most(at + "columns_max", self.columns_max, 2**20)
+            put(self, name, checks.multiple(at + name, getattr(self, name), 8, 2**20))
+        checks.one_of(at + "dilatation", self.dilatation, DILATATIONS)
         checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 
 
@@ -104,12 +125,16 @@ class Scene:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        put(self, "scale", checks.whole("scale", self.scale, 1))
+        put(self, "scale", checks.whole("scale", self.scale, 1, 10**6))
         put(self, "velocity", checks.positive("velocity", self.velocity, "mm/s"))
         put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
         put(self, "aspect", checks.positive("aspect", self.aspect))
         checks.one_of("plane", self.plane, PLANES)
         checks.one_of("kinematics", self.kinematics, KINEMATICS)
+        if self.plane == "stress" and self.numerics.dilatation == "mean":
+            raise InvalidInput(
+                "numerics.dilatation is mean, but must be auto or pointwise in plane stress, where nothing locks"
+            )
         flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
         if self.aspect < flattest:
             raise InvalidInput(

@@ -9,11 +9,10 @@ import xarray as xr
 from rubfric import dataset
 from rubfric.energy import evaluate
 from rubfric.errors import NotConverged
+from rubfric.resolvable import require_resolved
+from rubfric.routes import most_closure
 from rubfric.scene import Scene
-from rubfric.steady import solve
-
-# Three routes to one number that differ by more than this are no number.
-_MOST_CLOSURE = 0.25
+from rubfric.steady import require_contact, solve
 
 
 def simulate(scene: Scene) -> xr.Dataset:
@@ -38,10 +37,17 @@ def simulate(scene: Scene) -> xr.Dataset:
     0.206
     """
     started = time.perf_counter()
+    require_contact(scene)
     solution = solve(scene)
+    require_resolved(scene, solution.contact.touching, solution.iterations)
     energies = evaluate(solution)
-    if not energies.closure <= _MOST_CLOSURE:  # also where it is not a number
+    if not energies.closure <= most_closure(scene.numerics.accuracy):  # also where it is not a number
         raise NotConverged(
-            scene.name, solution.iterations, energies.closure, "relative difference of the three friction coefficients"
+            scene.name,
+            solution.iterations,
+            energies.closure,
+            "relative difference of the three friction coefficients",
+            "the mesh does not resolve this scene, or its rubber has no such digits: raise numerics.columns_max or the "
+            "pressure, or move Poisson's ratio away from its bounds",
         )
     return dataset.build(solution, energies, time.perf_counter() - started)

@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import next_fast_len
 
 from rubfric.arrays import Complex, Flags, Real
 from rubfric.block import Block
-from rubfric.contact import full_contact, solve_contact
-from rubfric.folding import fold_scene
+from rubfric.contact import Contact, full_contact, solve_contact
+from rubfric.folding import Folding, fold_scene
 from rubfric.reference import full_contact_pressure, layer_compliance, westergaard_contact_fraction
-from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
+from rubfric.refinement import SHORTFALL, refined
+from rubfric.resolution import Resolution, needed
+from rubfric.scene import Scene
 from rubfric.smallstrain import HarmonicResponse, respond
-from rubfric.solution import Decision, SteadySolution
+from rubfric.solution import Decision, Friction, SteadySolution
 
 # The search for a mesh starts at this many columns and doubles until this many nodes touch.
 _SCOUT_COLUMNS = 64
 _SCOUT_NODES = 16
-# A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
-_COLUMN_STEP = 8
 # The first guess of the contact: that of an elastic half-space, this much wider.
 _FIRST_GUESS = 1.2
 # Full contact is not looked for below this share of the pressure that fills the road under a closed-form layer.
 _FULL_CONTACT_FROM = 0.9
-# Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
-_SHORTFALL = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,88 +60,109 @@ class SmallSolution(SteadySolution):
 def solve_small(scene: Scene, decision: Decision) -> SmallSolution:
     """Slide a block steadily over its scale of the road.
 
-    The mesh follows the scene: full contact needs one harmonic and no contact solve; otherwise a closed-form
-    layer scouts the contact, and the block gets as many columns as put ``numerics.contact_nodes`` nodes in it.
+    Full contact needs one harmonic and no contact solve; otherwise a closed-form layer scouts the contact. The mesh
+    follows from it, and is refined as ``rubfric.refinement`` says.
 
     Raises
     ------
     NotConverged
         With the scene's name, step and residual.
     """
-    filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-    if scene.pressure >= _FULL_CONTACT_FROM * filling:
-        filled = _solve_full(scene, decision)
-        if filled is not None:
-            return filled
-    columns, touching, iterations = scout(scene, filling)
-    while True:
-        solution = _solve_partial(scene, decision, columns, touching, iterations)
-        finer = columns_needed(scene, np.count_nonzero(solution.contact.touching) / columns)
-        if solution.resolved or finer <= columns:
-            return solution
-        columns, touching, iterations = finer, solution.contact.touching, solution.iterations
+    return refined(scene, SmallSolver(scene, decision))
 
 
-def _solve_partial(scene: Scene, decision: Decision, columns: int, touching: Flags, iterations: int) -> SmallSolution:
-    """Return the solution on a mesh of some columns, from a guess of the contact and the steps taken for it."""
-    block = _mesh(scene, columns)
-    folding = fold_scene(scene, block.harmonics[1:])
-    response = respond(block, folding.material, scene.velocity, block.harmonics[1:])
-    spectrum = np.concatenate(([0.0], response.compliance))
-    profile = scene.road.height(block.column_positions)
-    contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
-    surface = response.compliance * np.fft.rfft(contact.pressure)[1:] / columns
-    surface[-1] = 0.5 * surface[-1].real  # the last harmonic is its own conjugate
-    wanted = (1.0 - _SHORTFALL) * min(scene.numerics.contact_nodes, columns)
-    resolved = bool(np.count_nonzero(contact.touching) >= wanted)
-    return SmallSolution(
-        scene=scene,
-        decision=decision,
-        folding=folding,
-        block=block,
-        contact=contact,
-        iterations=iterations + contact.iterations,
-        resolved=resolved,
-        history=(f"{columns} columns: contact found in {contact.iterations} pivoting steps",),
-        response=response,
-        surface=surface,
-    )
+class SmallSolver:
+    """Solves one scene on one mesh after the other, each from the contact found before."""
+
+    finite = False
+
+    def __init__(self, scene: Scene, decision: Decision) -> None:
+        self.scene = scene
+        self.decision = decision
+        self._filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
+        self._may_fill = scene.pressure >= _FULL_CONTACT_FROM * self._filling
+        self._touching: Flags | None = None
+        self._iterations = 0
+        self._history: tuple[str, ...] = ()
+
+    def first(self) -> Resolution:
+        """Return the mesh to begin with, coarser than the one that the contact seems to need."""
+        fraction = 1.0 if self._may_fill else float(np.mean(self._scouted()))
+        return needed(self.scene, fraction, self.finite).coarser(self.scene, self.finite)
+
+    def solve(self, resolution: Resolution) -> SmallSolution:
+        """Return the solution on a mesh."""
+        filled = self._full(resolution) if self._may_fill else None
+        return filled or self._partial(resolution)
+
+    def _partial(self, resolution: Resolution) -> SmallSolution:
+        """Return the solution of the complementarity problem."""
+        scene, columns = self.scene, resolution.columns
+        block = resolution.block(scene)
+        folding = fold_scene(scene, block.harmonics[1:])
+        response = respond(block, folding.material, scene.velocity, block.harmonics[1:])
+        spectrum = np.concatenate(([0.0], response.compliance))
+        profile = scene.road.height(block.column_positions)
+        contact = solve_contact(spectrum, profile, scene.pressure, _carry(self._scouted(), columns), scene.name)
+        surface = response.compliance * np.fft.rfft(contact.pressure)[1:] / columns
+        surface[-1] = 0.5 * surface[-1].real  # the last harmonic is its own conjugate
+        self._touching = contact.touching
+        self._iterations += contact.iterations
+        self._history += (f"{columns} columns: contact found in {contact.iterations} pivoting steps",)
+        return self._solution(block, folding, response, contact, surface)
+
+    def _full(self, resolution: Resolution) -> SmallSolution | None:
+        """Return the solution in full contact, which needs the first harmonic only, or None."""
+        scene, block = self.scene, resolution.block(self.scene)
+        folding = fold_scene(scene, np.array([1]))
+        response = respond(block, folding.material, scene.velocity, np.array([1]))
+        spectrum = np.zeros(len(block.harmonics), dtype=complex)
+        spectrum[1] = response.compliance[0]
+        contact = full_contact(spectrum, scene.road.height(block.column_positions), scene.pressure)
+        if contact is None:
+            return None
+        self._history += (f"{block.columns} columns: full contact, one harmonic, no contact solve",)
+        return self._solution(block, folding, response, contact, np.array([-0.5j * scene.road.amplitude]))
+
+    def _solution(
+        self, block: Block, folding: Folding, response: HarmonicResponse, contact: Contact, surface: Complex
+    ) -> SmallSolution:
+        wanted = (1.0 - SHORTFALL) * min(self.scene.numerics.contact_nodes, block.columns)
+        return SmallSolution(
+            scene=self.scene,
+            decision=self.decision,
+            folding=folding,
+            block=block,
+            friction=_friction(self.scene, block, response, contact, surface),
+            contact=contact,
+            iterations=self._iterations,
+            resolved=bool(np.count_nonzero(contact.touching) >= wanted),
+            history=self._history,
+            response=response,
+            surface=surface,
+        )
+
+    def _scouted(self) -> Flags:
+        """Return the contact found last, or that of a closed-form layer."""
+        if self._touching is None:
+            self._touching, self._iterations = scout(self.scene, self._filling)
+        return self._touching
 
 
-def _solve_full(scene: Scene, decision: Decision) -> SmallSolution | None:
-    """Return the solution in full contact, which needs the first harmonic only, or None."""
-    block = _mesh(scene, columns_needed(scene, 1.0))
-    folding = fold_scene(scene, np.array([1]))
-    response = respond(block, folding.material, scene.velocity, np.array([1]))
-    spectrum = np.zeros(len(block.harmonics), dtype=complex)
-    spectrum[1] = response.compliance[0]
-    contact = full_contact(spectrum, scene.road.height(block.column_positions), scene.pressure)
-    if contact is None:
-        return None
-    surface = np.array([-0.5j * scene.road.amplitude])
-    return SmallSolution(
-        scene=scene,
-        decision=decision,
-        folding=folding,
-        block=block,
-        contact=contact,
-        iterations=0,
-        resolved=True,
-        history=("full contact: one harmonic, no contact solve",),
-        response=response,
-        surface=surface,
-    )
+def _friction(scene: Scene, block: Block, response: HarmonicResponse, contact: Contact, surface: Complex) -> Friction:
+    """Return the friction coefficient by the power that the contact puts into the surface, and by its slopes.
+
+    The former is the stress power of the block, by virtual work.
+    """
+    pressure = np.fft.rfft(contact.pressure)[response.harmonics] / block.columns
+    wavenumber = response.harmonics * scene.road.wavenumber
+    power = float(np.sum(2.0 * wavenumber * (pressure.conj() * 1j * surface).real))
+    slope = scene.road.slope(block.column_positions)
+    return Friction(power / scene.pressure, float(np.mean(contact.pressure * slope)) / scene.pressure)
 
 
-def _mesh(scene: Scene, columns: int) -> Block:
-    numerics = scene.numerics
-    return Block.graded(
-        scene.road.wavelength, scene.height, columns, scene.plane, numerics.row_growth, numerics.first_row
-    )
-
-
-def scout(scene: Scene, filling: float) -> tuple[int, Flags, int]:
-    """Return the columns that the scene needs, a first guess of the contact, and the steps it took.
+def scout(scene: Scene, filling: float) -> tuple[Flags, int]:
+    """Return a first guess of the contact, and the steps it took.
 
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
     ``filling`` is the pressure, MPa, that fills the road under it.
@@ -165,16 +182,8 @@ def scout(scene: Scene, filling: float) -> tuple[int, Flags, int]:
         touching = contact.touching
         count = int(np.count_nonzero(touching))
         if count >= _SCOUT_NODES or columns >= scene.numerics.columns_max:
-            return columns_needed(scene, count / columns), touching, iterations
+            return touching, iterations
         columns = min(2 * columns, scene.numerics.columns_max)
-
-
-def columns_needed(scene: Scene, fraction: float) -> int:
-    """Return the columns that a scene with some contact fraction needs, fit for the mesh and for its transform."""
-    numerics = scene.numerics
-    needed = max(numerics.columns_min, numerics.contact_nodes / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
-    steps = int(next_fast_len(math.ceil(needed / _COLUMN_STEP), real=True))
-    return min(_COLUMN_STEP * steps, numerics.columns_max)
 
 
 def _carry(touching: Flags, columns: int) -> Flags:

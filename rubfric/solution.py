@@ -11,6 +11,7 @@ from rubfric.arrays import Real
 from rubfric.block import Block
 from rubfric.contact import Contact
 from rubfric.folding import Folding
+from rubfric.routes import ROUND_OFF, disagreement
 from rubfric.scene import Scene
 
 
@@ -32,6 +33,42 @@ class Decision:
     reason: str
 
 
+@dataclass(frozen=True)
+class Friction:
+    """The friction coefficient on one mesh by two routes, and what the solver cannot tell from zero; dimensionless."""
+
+    stress_power: float
+    contact: float
+    resolution: float = ROUND_OFF
+
+    @property
+    def disagreement(self) -> float:
+        """Difference of the two over the larger one."""
+        return disagreement((self.stress_power, self.contact), self.resolution)
+
+
+@dataclass(frozen=True)
+class OnMesh:
+    """What a scene came to on one mesh.
+
+    Attributes
+    ----------
+    columns, rows : int
+        Cells along the road and over the height.
+    growth : float
+        Ratio of the heights of neighbouring rows.
+    contact_nodes : int
+        Surface nodes in contact.
+    friction : Friction
+    """
+
+    columns: int
+    rows: int
+    growth: float
+    contact_nodes: int
+    friction: Friction
+
+
 @dataclass(frozen=True, kw_only=True)
 class SteadySolution(ABC):
     """Steady sliding in the frame of the road; what all solutions have in common.
@@ -46,6 +83,8 @@ class SteadySolution(ABC):
         The rubber, without the branches that the scene does not need.
     block : Block
         The mesh that the program chose.
+    friction : Friction
+        The friction coefficient by two routes.
     contact : Contact
         Pressure (vertical force over the width of a column as it was made) and gap at the surface nodes.
     iterations : int
@@ -56,17 +95,21 @@ class SteadySolution(ABC):
         Whether the contact holds the nodes asked for (within 10 %).
     history : tuple of str
         What the solver tried, in order, and why it left it.
+    meshes : tuple of OnMesh
+        Every mesh that the scene was solved on, from coarse to fine; the last is ``block``.
     """
 
     scene: Scene
     decision: Decision
     folding: Folding
     block: Block
+    friction: Friction
     contact: Contact
     iterations: int
     resolved: bool
     krylov: int = 0
     history: tuple[str, ...] = ()
+    meshes: tuple[OnMesh, ...] = ()
 
     @property
     def contact_fraction(self) -> float:

@@ -48,7 +48,7 @@ def harmonic_strain(
     """
     harmonics = response.harmonics
     quadrature = block.quadrature()
-    strains, recovery, area = _recovery(quadrature, block.plane)
+    strains, recovery, area = _recovery(quadrature, block.pointwise)
     matrix = np.concatenate((strains, recovery), axis=1)
     turn = np.exp(2j * np.pi / block.columns * harmonics)
     shear, volume = (np.zeros((block.rows, len(harmonics))) for _ in range(2))
@@ -60,7 +60,7 @@ def harmonic_strain(
         product = _apply(matrix[rows], nodes.reshape(-1, 8, count))
         strain, corners = np.split(product, [strains.shape[1]], axis=1)
         shear[rows, :count], volume[rows, :count] = _squares(
-            strain.reshape(len(strain), -1, 3, count), quadrature.weights[rows], thickness[:count], block.plane
+            strain.reshape(len(strain), -1, 3, count), quadrature.weights[rows], thickness[:count], block
         )
         # A node is the left corner of the cell to its right, and the right corner of the one to its left.
         corners = corners.reshape(-1, 2, 2, 4, count)
@@ -76,7 +76,7 @@ def _apply(matrix: Real, nodes: Complex) -> Complex:
     return (matrix @ nodes.view(float)).view(complex)
 
 
-def _recovery(quadrature: Quadrature, plane: str) -> tuple[Real, Real, Real]:
+def _recovery(quadrature: Quadrature, pointwise: bool) -> tuple[Real, Real, Real]:
     """Return the matrices from a cell's displacements to its strains, and to their shares at its corners.
 
     Returns
@@ -91,7 +91,7 @@ def _recovery(quadrature: Quadrature, plane: str) -> tuple[Real, Real, Real]:
     strain = quadrature.strain_matrix()
     rows, points = quadrature.weights.shape
     dilatation = strain[:, :, 0] + strain[:, :, 1]
-    if plane == "strain":  # dilatation acts through its mean over the cell
+    if not pointwise:  # dilatation acts through its mean over the cell
         part = quadrature.weights / quadrature.weights.sum(axis=1, keepdims=True)
         dilatation = np.broadcast_to(np.einsum("rp,rpj->rj", part, dilatation)[:, None], dilatation.shape)
     four = np.concatenate((strain, dilatation[:, :, None]), axis=2)
@@ -104,19 +104,19 @@ def _recovery(quadrature: Quadrature, plane: str) -> tuple[Real, Real, Real]:
     return strain.reshape(rows, 3 * points, 8), recovery, area
 
 
-def _squares(strain: Complex, weights: Real, thickness: Complex, plane: str) -> tuple[Real, Real]:
+def _squares(strain: Complex, weights: Real, thickness: Complex, block: Block) -> tuple[Real, Real]:
     """Return the integrals of |e|² and |tr|² over cells, (rows, n), from strains (rows, points, 3, n)."""
     xx, yy, xy = strain[:, :, 0], strain[:, :, 1], strain[:, :, 2]
-    flat = _square(xx + yy)
-    across = _square(thickness)
-    dilatation = _square(1.0 + thickness) * flat
-    deviator = _square(xx) + _square(yy) + 2.0 * _square(xy) + across * flat - dilatation / 3.0
-    shear = np.einsum("rp,rpn->rn", weights, deviator)
-    if plane == "strain":
-        area = weights.sum(axis=1)
-        mean = np.einsum("rp,rpn->rn", weights, xx + yy) / area[:, None]
-        return shear, area[:, None] * _square(mean)
-    return shear, np.einsum("rp,rpn->rn", weights, dilatation)
+    flat = np.einsum("rp,rpn->rn", weights, _square(xx + yy))
+    felt = flat
+    if not block.pointwise:
+        area = weights.sum(axis=1)[:, None]
+        felt = _square(np.einsum("rp,rpn->rn", weights, xx + yy)) / area
+    volume = _square(1.0 + thickness) * felt
+    straight = np.einsum("rp,rpn->rn", weights, _square(xx) + _square(yy) + 2.0 * _square(xy))
+    if block.plane == "strain":
+        return straight - flat / 3.0, volume
+    return straight + _square(thickness) * felt - volume / 3.0, volume
 
 
 def _square(amplitude: Complex) -> Real:

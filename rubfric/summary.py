@@ -17,7 +17,7 @@ def summary(result: xr.Dataset) -> str:
         f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa, "
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
-        _line("friction coefficient", f"{friction:.5g}"),
+        _line("friction coefficient", f"{friction:.5g} +- {float(result['friction_coefficient_error']):.1g}"),
         _line("  from viscous dissipation", f"{float(result['friction_coefficient_dissipation']):.5g}"),
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
         _line("  largest difference", f"{float(result['energy_closure']):.2g} (relative)"),
@@ -26,10 +26,7 @@ def summary(result: xr.Dataset) -> str:
         _line("nominal compression", f"{float(result['nominal_compression']):.3g}"),
         _line("effective Poisson's ratio", f"{float(result['effective_poissons_ratio']):.4f}"),
         _line("speed over shear-wave speed", f"{float(result['shear_wave_speed_ratio']):.2g}"),
-        _line(
-            "mesh",
-            f"{int(result['columns'])} x {int(result['rows'])} cells, {int(result['contact_nodes'])} nodes in contact",
-        ),
+        _line("mesh", _mesh(result)),
         _line("solved in", f"{1e3 * float(result['wall_time']):.0f} ms, {_effort(result)}"),
         _line("kinematics", attributes["kinematics_reason"]),
     ]
@@ -37,6 +34,12 @@ def summary(result: xr.Dataset) -> str:
     if warnings:
         lines += ["", *(f"Note: {line}" for line in warnings)]
     return "\n".join(lines)
+
+
+def _mesh(result: xr.Dataset) -> str:
+    """Return the mesh of the result, in words."""
+    size = f"{int(result['columns'])} x {int(result['rows'])} cells"
+    return f"{size}, {int(result['contact_nodes'])} nodes in contact; {int(result['meshes'])} meshes"
 
 
 def _effort(result: xr.Dataset) -> str:

@@ -11,13 +11,21 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.block import Block
+from rubfric.errors import NotConverged
 from rubfric.marching import FRESH, March, wavelength_means
 from rubfric.procedure import PHASES, Procedure
+from rubfric.resolvable import require_columns
+from rubfric.routes import MOST_CLOSURE, ROUND_OFF, disagreement
 from rubfric.saturation import Saturation
 from rubfric.scene import Scene
 
 # Seconds between two lines of progress.
 _SILENCE = 10.0
+# Surface nodes in contact at full speed, on average, below which a mesh does not see the contact that it moves.
+_FEWEST_NODES = 2.0
+# Distance from balance at which a step in finite strain is solved, and the share of what friction varies by while a
+# node is passed that its mean is good for: friction below either cannot be told from zero.
+_TOLERANCE, _SHARE = 1e-6, 1e-2
 
 
 @dataclass(frozen=True)
@@ -66,6 +74,29 @@ class Transient:
         missing = self.records["imbalance"][self.sliding].sum()
         return float(abs(missing) / self.records["road_work"][self.sliding].sum())
 
+    @property
+    def friction(self) -> tuple[float, float, float]:
+        """Friction coefficient by contact, by the work of the road and by energy: means at full speed."""
+        routes = ("friction_contact", "friction_work", "friction_energy")
+        contact, work, energy = (float(self.records[route][self.sliding].mean()) for route in routes)
+        return contact, work, energy
+
+    @property
+    def resolution(self) -> float:
+        """Friction at full speed that the march cannot tell from zero, dimensionless."""
+        variation = float(self.records["friction_contact"][self.sliding].std())
+        return max(_TOLERANCE * self.scene.road.steepest_slope, _SHARE * variation, ROUND_OFF)
+
+    @property
+    def closure(self) -> float:
+        """Largest relative difference of the three means, or of ``resolution`` where that is larger."""
+        return disagreement(self.friction, self.resolution)
+
+    @property
+    def contact_nodes(self) -> float:
+        """Surface nodes in contact at full speed, on average."""
+        return float(self.records["contact_fraction"][self.sliding].mean()) * self.block.columns
+
 
 def march(
     scene: Scene,
@@ -87,10 +118,15 @@ def march(
 
     Raises
     ------
+    InvalidInput
+        Where the block has too few columns for so light a contact.
     NotConverged
-        With the scene, the step and the residual, where halving a step does not help.
+        With the scene, the step and the residual, where halving a step does not help, or where columns or steps turn
+        out too few: hardly a node touches the road, or the routes to friction contradict each other.
     """
-    marching = March(scene, procedure or Procedure())
+    given = procedure or Procedure()
+    require_columns(scene, given.columns, _FEWEST_NODES)
+    marching = March(scene, given)
     if restart is not None and restart.exists():
         marching.restore(restart)
     started = said = written = time.perf_counter()
@@ -106,7 +142,7 @@ def march(
             written = now
     if restart is not None:
         marching.save(restart)
-    return Transient(
+    found = Transient(
         scene,
         marching.procedure,
         marching.kinematics,
@@ -115,3 +151,18 @@ def march(
         marching.saturation,
         marching.seconds,
     )
+    _require_sound(found)
+    return found
+
+
+def _require_sound(found: Transient) -> None:
+    """Refuse a march that its mesh or its steps were too coarse for: NotConverged."""
+    name, steps = found.scene.name, len(found.records["time"])
+    if not found.contact_nodes >= _FEWEST_NODES:
+        measure = f"number of surface nodes in contact, out of {found.block.columns}, on average,"
+        advice = f"at least {_FEWEST_NODES:g} make a contact: raise procedure.columns or the pressure"
+        raise NotConverged(name, steps, found.contact_nodes, measure, advice)
+    if not found.closure <= MOST_CLOSURE:  # also where it is not a number
+        measure = "relative difference of friction by contact, work and energy"
+        advice = "raise procedure.columns and procedure.steps_per_wavelength"
+        raise NotConverged(name, steps, found.closure, measure, advice)

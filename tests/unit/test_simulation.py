@@ -120,6 +120,6 @@ def test_routes_that_contradict_each_other_are_no_result() -> None:
 
 @KINEMATICS
 def test_routes_must_agree_in_either_kinematics(scene: Scene, kinematics: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simulation, "_MOST_CLOSURE", 1e-9)
+    monkeypatch.setattr(simulation, "most_closure", lambda accuracy: 1e-9)
     with pytest.raises(NotConverged, match="relative difference of the three friction coefficients is"):
         simulate(replace(scene, kinematics=kinematics))

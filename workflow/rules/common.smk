@@ -1,7 +1,11 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
+from dataclasses import asdict
+
 import rubfric
 from rubfric import jobs
+from rubfric.campaign import load
 from rubfric.sources import sources
+from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name

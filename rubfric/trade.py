@@ -1,0 +1,79 @@
+"""What the ladders say: what each knob buys, and which first mesh is the cheapest for an accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pandas as pd
+
+from rubfric.errors import BrokenResult
+from rubfric.ladder import STARTS
+from rubfric.presets import fineness
+from rubfric.scene import Numerics
+
+
+def knob_table(ladder: pd.DataFrame) -> pd.DataFrame:
+    """Return one row for each rung of each knob, over all scenes.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns knob, rung, scenes, refused, typical_error (median), worst_error, typical_estimate, cost (median, over
+        the preset ``standard``), seconds (sum), memory_MB (most); in the order of the ladder.
+    """
+    rows = []
+    for (knob, rung), part in ladder.groupby(["knob", "rung"], sort=False):
+        solved = part.dropna(subset=["error"])
+        rows.append(
+            {
+                "knob": knob,
+                "rung": rung,
+                "scenes": len(solved),
+                "refused": len(part) - len(solved),
+                "typical_error": solved["error"].median(),
+                "worst_error": solved["error"].max(),
+                "typical_estimate": solved["estimate"].median(),
+                "cost": solved["cost"].median(),
+                "seconds": solved["seconds"].sum(),
+                "memory_MB": solved["memory_MB"].max(),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def start_table(ladder: pd.DataFrame) -> pd.DataFrame:
+    """Return what each accuracy costs from each first mesh; ``chosen`` marks the cheapest that keeps it everywhere.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns accuracy, fineness, typical_error, worst_error, cost (median), seconds (sum over the scenes), chosen.
+
+    Raises
+    ------
+    BrokenResult
+        Where no first mesh keeps an accuracy.
+    """
+    knobs = knob_table(ladder).query("knob == 'start'").set_index("rung")
+    rows = []
+    for accuracy, starts in STARTS.items():
+        found = [knobs.loc[f"{accuracy:g} from {start:g}"] for start in starts]
+        keeping = [entry["seconds"] for entry in found if entry["worst_error"] <= accuracy and not entry["refused"]]
+        if not keeping:
+            raise BrokenResult(f"no first mesh of the ladder keeps an accuracy of {accuracy:g} on every scene")
+        for start, entry in zip(starts, found, strict=True):
+            numbers = {name: entry[name] for name in ("typical_error", "worst_error", "cost", "seconds")}
+            chosen = entry["seconds"] == min(keeping)
+            rows.append({"accuracy": accuracy, "fineness": start, **numbers, "chosen": chosen})
+    return pd.DataFrame(rows)
+
+
+def presets_that_differ(starts: pd.DataFrame, presets: Mapping[str, Numerics]) -> list[str]:
+    """Return the presets whose first mesh is not the one that ``start_table`` chose for their accuracy."""
+    differing = []
+    for name, numerics in presets.items():
+        chosen = starts[starts["chosen"] & (starts["accuracy"] == numerics.accuracy)]
+        first = fineness(float(chosen["fineness"].iloc[0])) if len(chosen) else {}
+        if not first or any(getattr(numerics, key) != value for key, value in first.items()):
+            differing.append(name)
+    return differing

@@ -1,0 +1,13 @@
+"""Hypothesis draws the same examples every time, without a clock and without a memory on disk."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from hypothesis import settings
+from hypothesis.configuration import set_hypothesis_home_dir
+
+set_hypothesis_home_dir(Path(tempfile.gettempdir()) / "rubfric-hypothesis")
+settings.register_profile("steady", derandomize=True, deadline=None, database=None, max_examples=100, print_blob=False)
+settings.load_profile("steady")

@@ -1,0 +1,136 @@
+# Accuracy against cost, on a fixed set of scenes and on scenes drawn at random: tables, figures and a page. It takes
+# about an hour on two cores, and is no part of `all`. It measures the paper's rubber and road, whatever the config.
+PAPER = load("config/config.yaml")
+PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
+LADDERS = fixed_scenes(PAPER)
+DRAWN = drawn_scenes(PAPER, count=60, seed=2019)
+DRAWN_BATCHES = dict(enumerate(batches(list(DRAWN), 6)))
+ACCURACY = {
+    name: f"{RESULTS}/accuracy/{name}.{kind}"
+    for name, kind in [
+        *(
+            (table, "csv")
+            for table in ("ladder", "knobs", "starts", "calibration", "verdict")
+        ),
+        ("page", "md"),
+    ]
+}
+
+
+rule ladder:
+    input:
+        package_files("rubfric.ladder"),
+        script="workflow/scripts/measure_ladder.py",
+    output:
+        f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
+    log:
+        f"{RESULTS}/logs/accuracy/{{scene}}.log",
+    params:
+        parameters=lambda wildcards: LADDERS[wildcards.scene].parameters(),
+        presets=PRESETS,
+    message:
+        "Accuracy against cost: {wildcards.scene}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            name=wildcards.scene,
+            parameters=params.parameters,
+            presets=params.presets,
+        )
+
+
+rule calibrate:
+    input:
+        package_files("rubfric.calibration"),
+        script="workflow/scripts/calibrate_errors.py",
+    output:
+        f"{RESULTS}/accuracy/drawn/{{batch}}.csv",
+    log:
+        f"{RESULTS}/logs/accuracy/drawn_{{batch}}.log",
+    wildcard_constraints:
+        batch=r"\d+",
+    params:
+        scenes=lambda wildcards: {
+            name: DRAWN[name].parameters()
+            for name in DRAWN_BATCHES[int(wildcards.batch)]
+        },
+        presets=PRESETS,
+    message:
+        "Estimated against true errors: batch {wildcards.batch}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            scenes=params.scenes,
+            presets=params.presets,
+        )
+
+
+rule accuracy_tables:
+    input:
+        package_files("rubfric.pages"),
+        script="workflow/scripts/tabulate_accuracy.py",
+        ladders=expand(
+            f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
+            scene=LADDERS,
+        ),
+        calibrations=expand(
+            f"{RESULTS}/accuracy/drawn/{{batch}}.csv",
+            batch=DRAWN_BATCHES,
+        ),
+    output:
+        **ACCURACY,
+    log:
+        f"{RESULTS}/logs/accuracy/tables.log",
+    params:
+        accuracies={name: preset["accuracy"] for name, preset in PRESETS.items()},
+    message:
+        "Tables of accuracy against cost"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            outputs=ACCURACY,
+            ladders=list(input.ladders),
+            calibrations=list(input.calibrations),
+            accuracies=params.accuracies,
+        )
+
+
+rule accuracy_figure:
+    input:
+        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        script="workflow/scripts/draw_table_figure.py",
+        table=lambda wildcards: ACCURACY[
+            {"pareto": "ladder"}.get(wildcards.figure, wildcards.figure)
+        ],
+    output:
+        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
+        png=f"{RESULTS}/figures/{{figure}}.png",
+    log:
+        f"{RESULTS}/logs/figures/{{figure}}.log",
+    wildcard_constraints:
+        figure="pareto|calibration",
+    message:
+        "Drawing {wildcards.figure}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            figure=wildcards.figure,
+            table=input.table,
+            outputs=list(output),
+        )
+
+
+rule accuracy:
+    input:
+        ACCURACY.values(),
+        expand(
+            f"{RESULTS}/figures/{{figure}}.{{kind}}",
+            figure=["pareto", "calibration"],
+            kind=["pdf", "png"],
+        ),

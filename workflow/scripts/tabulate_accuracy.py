@@ -1,0 +1,28 @@
+"""Gather what was measured of accuracy into tables and a page."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from rubfric.atomic import whole
+from rubfric.calibration import climbed, verdict
+from rubfric.pages import accuracy_page
+from rubfric.tables import write_table
+from rubfric.trade import knob_table, start_table
+
+# What a label holds is text, though it may look like a number.
+_TEXT = {"rung": str, "note": str}
+
+
+def main(outputs: dict[str, str], ladders: list[str], calibrations: list[str], accuracies: dict[str, float]) -> None:
+    """Write the tables ladder, knobs, starts, calibration and verdict, and the page."""
+    ladder = pd.concat([pd.read_csv(path, dtype=_TEXT) for path in ladders], ignore_index=True)
+    drawn = [pd.read_csv(path, dtype=_TEXT) for path in calibrations]
+    calibration = pd.concat([climbed(ladder), *drawn], ignore_index=True)
+    write_table(ladder, outputs["ladder"])
+    write_table(knob_table(ladder), outputs["knobs"])
+    write_table(start_table(ladder), outputs["starts"])
+    write_table(calibration, outputs["calibration"])
+    write_table(verdict(calibration), outputs["verdict"])
+    with whole(outputs["page"]) as part:
+        Path(part).write_text(accuracy_page(ladder, calibration, accuracies), encoding="utf-8")
