@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-from pandas.api.types import is_bool_dtype
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
@@ -50,7 +49,7 @@ def draw(table: pd.DataFrame) -> Figure:
         A row per run. Columns ``set`` (``ladder``, ``inside``, ``outside``), ``kinematics``; ``error`` and ``estimate``
         (relative, true and estimated), ``reference`` (friction coefficient), ``reference_error`` (its absolute bound),
         ``covered`` (whether the estimate covers the error) and ``ratio`` (estimate over true error). A run without
-        error or estimate is left out, and counted in the note.
+        error or estimate, which has been refused, is left out and counted in the note.
 
     Returns
     -------
@@ -88,13 +87,13 @@ def draw(table: pd.DataFrame) -> Figure:
 def _known(table: pd.DataFrame) -> pd.DataFrame:
     """Return the runs with both errors; the rest of the docstring of ``draw`` tells what is refused."""
     name = "table of calibration"
-    check_columns(table, name, ("set", "kinematics", "covered"), ("error", "estimate", "reference", "reference_error"))
-    if not is_bool_dtype(table["covered"]):
-        kind = table["covered"].dtype
-        raise InvalidInput(f"the column covered of the {name} is of {kind}, but must be True or False")
+    check_columns(table, name, ("set",), ("error", "estimate", "reference_error"), ("reference",))
     known = table[np.isfinite(table["error"]) & np.isfinite(table["estimate"])]
     if known.empty:
         raise InvalidInput(f"the {name} has no run with both a true and an estimated error, but at least one is needed")
+    check_columns(known, name, ("kinematics", "covered"), ())
+    if not known["covered"].isin([True, False]).all():
+        raise InvalidInput(f"the column covered of the {name} must be True or False wherever there is an estimate")
     return known
 
 
@@ -118,7 +117,7 @@ def _draw_points(panel: Axes, rows: pd.DataFrame, colour: Any) -> None:
     low = panel.get_xlim()[0]
     for kinematics, part in rows.groupby("kinematics", sort=False):
         error, estimate = (np.maximum(100.0 * part[name].to_numpy(), low) for name in ("error", "estimate"))
-        own = 100.0 * (part["reference_error"] / part["reference"].where(part["reference"] > 0.0)).to_numpy()
+        own = 100.0 * (part["reference_error"] / part["reference"].abs().where(part["reference"] != 0.0)).to_numpy()
         panel.hlines(estimate, np.maximum(error - own, low), error + own, color=colour, gid="own", **_WHISKER)
         panel.plot(
             error, estimate, color=colour, marker=_marker(kinematics), gid=f"runs {kinematics}", clip_on=False, **_POINT

@@ -11,7 +11,9 @@ from pandas.api.types import is_bool_dtype, is_numeric_dtype
 from rubfric.errors import InvalidInput
 
 
-def check_columns(table: pd.DataFrame, name: str, words: Sequence[str], numbers: Sequence[str]) -> None:
+def check_columns(
+    table: pd.DataFrame, name: str, words: Sequence[str], numbers: Sequence[str], signed: Sequence[str] = ()
+) -> None:
     """Raise InvalidInput unless a table has rows, columns of words without gaps, and columns of numbers.
 
     Parameters
@@ -19,10 +21,10 @@ def check_columns(table: pd.DataFrame, name: str, words: Sequence[str], numbers:
     table : pandas.DataFrame
     name : str
         What the table is called in the message.
-    words, numbers : sequence of str
-        Columns; in those of numbers NaN is allowed, negative numbers are not.
+    words, numbers, signed : sequence of str
+        Columns; in both kinds of numbers NaN is allowed, negative numbers in ``signed`` only.
     """
-    lacking = [column for column in (*words, *numbers) if column not in table]
+    lacking = [column for column in (*words, *numbers, *signed) if column not in table]
     if lacking:
         raise InvalidInput(f"the {name} lacks the column {', '.join(lacking)}")
     if table.empty:
@@ -30,8 +32,9 @@ def check_columns(table: pd.DataFrame, name: str, words: Sequence[str], numbers:
     for column in words:
         if table[column].isna().any():
             raise InvalidInput(f"the column {column} of the {name} has gaps, but must name something in every row")
-    for column in numbers:
+    for column in (*numbers, *signed):
         if not is_numeric_dtype(table[column]) or is_bool_dtype(table[column]):
             raise InvalidInput(f"the column {column} of the {name} is of {table[column].dtype}, but must be numbers")
+    for column in numbers:
         if (table[column].to_numpy(dtype=np.float64) < 0.0).any():
             raise InvalidInput(f"the column {column} of the {name} has a number below 0, but none may be negative")

@@ -45,7 +45,7 @@ def known_runs(table: pd.DataFrame) -> pd.DataFrame:
     InvalidInput
         For a table without rows, without a column, with a gap in a name or a negative number, or without any such row.
     """
-    check_columns(table, "ladder", ("scene", "knob", "rung"), ("error", "cost", "reference", "reference_error"))
+    check_columns(table, "ladder", ("scene", "knob", "rung"), ("error", "cost", "reference_error"), ("reference",))
     known = table[np.isfinite(table["error"]) & np.isfinite(table["cost"]) & (table["cost"] > 0.0)]
     if known.empty:
         raise InvalidInput("the ladder has no run with both an error and a cost, but at least one is needed")
@@ -88,5 +88,5 @@ def _ladder(rows: pd.DataFrame, order: list[str]) -> Ladder:
 def own_error(known: pd.DataFrame) -> float:
     """Return the median over the scenes of the relative bound on the reference's own error, per cent; 0 if unknown."""
     scenes = known.groupby("scene", sort=False)[["reference", "reference_error"]].first()
-    scenes = scenes[scenes["reference"] > 0.0].dropna()
-    return float(100.0 * (scenes["reference_error"] / scenes["reference"]).median()) if len(scenes) else 0.0
+    scenes = scenes[scenes["reference"] != 0.0].dropna()
+    return float(100.0 * (scenes["reference_error"] / scenes["reference"].abs()).median()) if len(scenes) else 0.0

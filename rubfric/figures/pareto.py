@@ -24,6 +24,8 @@ from rubfric.figures.scaling import tick_decades
 Array = NDArray[np.float64]
 
 _PRESET = "preset"
+# Candidates for presets are no ladder: neither of two of them need be the finer one.
+_NO_LADDER = "start"
 # The knobs in words; one that is not here goes by its own name.
 _WORDS = {
     "mesh": "whole mesh",
@@ -77,7 +79,7 @@ def draw(table: pd.DataFrame) -> Figure:
         A row per scene, knob and rung, the rungs of a knob from coarse to fine. Columns ``scene``, ``knob``, ``rung``;
         ``error`` (relative, against the reference), ``cost`` (seconds over those of the preset ``standard`` of the
         same scene), ``reference`` (friction coefficient) and ``reference_error`` (its absolute bound). A run without
-        error or cost is left out, and counted in the note.
+        error or cost is left out, and counted in the note; so is the knob ``start``, the candidates for presets.
 
     Returns
     -------
@@ -92,8 +94,9 @@ def draw(table: pd.DataFrame) -> Figure:
         For a table without rows, without a column, with a gap in a name or a negative number, or without any run that
         has both error and cost.
     """
-    known = known_runs(table)
-    ladders = by_knob(table)
+    known_runs(table)
+    table = table[table["knob"] != _NO_LADDER]
+    known, ladders = known_runs(table), by_knob(table)
     presets = ladders.pop(_PRESET, None)
     bound = own_error(known)
     looks = style.kinds(len(ladders))

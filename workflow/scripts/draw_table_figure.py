@@ -6,7 +6,7 @@ from rubfric.figures.style import save
 from rubfric.tables import read_table
 
 # Rungs and names are words, whatever they look like.
-WORDS = ("scene", "knob", "rung", "set", "kinematics", "plane", "note")
+WORDS = ("scene", "knob", "rung", "set", "preset", "kinematics", "plane", "note")
 
 
 def main(figure: str, table: str, outputs: list[str]) -> None:

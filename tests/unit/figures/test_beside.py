@@ -45,6 +45,6 @@ def test_words_stay_in_the_panel(panel: Axes) -> None:
 
 
 def test_words_do_not_cover_other_words(panel: Axes) -> None:
-    notes = [write_beside(panel, (0.5, 0.5), "word", [], 6.0) for _ in range(3)]
+    notes = [write_beside(panel, (0.5, 0.5), "word", [], 12.0) for _ in range(3)]
     boxes = [note.get_window_extent() for note in notes]
     assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))

@@ -80,6 +80,12 @@ def test_ratios_beyond_the_panel_keep_their_share(make_calibration: Maker, tmp_p
     style.save(figure, tmp_path / "beyond.png")
 
 
+def test_refused_runs_need_not_be_judged(make_calibration: Maker) -> None:
+    table = make_calibration(sets=("inside",)).astype({"covered": object, "kinematics": object})
+    table.loc[1, ["error", "estimate", "covered", "kinematics"]] = np.nan
+    assert told(calibration.draw(table))[0] == "inside the paper's grid: 2 of 3 covered (66 %), median ratio 4"
+
+
 def test_legend_tells_coverage_and_median_ratio(make_calibration: Maker) -> None:
     table = make_calibration()
     table.loc[table["set"] == "outside", "covered"] = False
@@ -138,7 +144,8 @@ def test_zeros_and_vague_references_are_drawn(
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [
-        ({"covered": 1}, r"^the column covered of the table of calibration is of int64, but must be True or False$"),
+        ({"covered": "yes"}, r"^the column covered of the table of calibration must be True or False wherever there"),
+        ({"kinematics": None}, r"^the column kinematics of the table of calibration has gaps"),
         ({"error": -0.1}, r"^the column error of the table of calibration has a number below 0"),
         ({"estimate": np.nan}, r"^the table of calibration has no run with both a true and an estimated error, but"),
         ({"set": None}, r"^the column set of the table of calibration has gaps"),

@@ -13,6 +13,7 @@ GOOD = {"name": ["a", "b"], "error": [0.1, float("nan")], "count": [1, 2]}
 
 def test_good_table_passes() -> None:
     check_columns(pd.DataFrame(GOOD), "table", ("name",), ("error", "count"))
+    check_columns(pd.DataFrame(GOOD | {"error": [-0.1, 0.1]}), "table", ("name",), ("count",), signed=("error",))
 
 
 @pytest.mark.parametrize(
@@ -32,5 +33,7 @@ def test_bad_values_are_refused(changed: dict[str, Any], complaint: str) -> None
 def test_what_is_absent_is_named() -> None:
     with pytest.raises(InvalidInput, match=r"^the table lacks the column rung, cost$"):
         check_columns(pd.DataFrame(GOOD), "table", ("name", "rung"), ("error", "cost"))
+    with pytest.raises(InvalidInput, match=r"^the table lacks the column reference$"):
+        check_columns(pd.DataFrame(GOOD), "table", (), (), signed=("reference",))
     with pytest.raises(InvalidInput, match=r"^the table has 0 rows, but must have at least one$"):
         check_columns(pd.DataFrame(GOOD).iloc[:0], "table", ("name",), ("error",))

@@ -79,6 +79,12 @@ def test_panel_goes_no_deeper_than_a_tenth_of_the_reference_s_own_error(make_lad
     assert pareto.draw(table).axes[0].get_ylim()[0] == pytest.approx(0.1 * 0.02)
 
 
+def test_candidates_for_presets_are_no_ladder(make_ladder: Maker, words: Callable[[Figure], list[str]]) -> None:
+    figure = pareto.draw(make_ladder(("preset", "start", "mesh")))
+    assert len(figure.axes) == 2
+    assert "start" not in words(figure)
+
+
 def test_nothing_but_zeros_is_drawn(make_ladder: Maker, tmp_path: Path) -> None:
     table = make_ladder()
     table[["error", "reference_error"]] = 0.0
