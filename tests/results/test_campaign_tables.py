@@ -89,6 +89,15 @@ def test_total_is_the_sum_of_the_scales(total: pd.DataFrame, scales: dict[int, p
         assert parts[f"friction_scale_{scale}"].tolist() == grid["friction_coefficient"].tolist()
 
 
+def test_every_friction_has_an_error_and_errors_add_up(
+    every_scene: pd.DataFrame, total: pd.DataFrame, scales: dict[int, pd.DataFrame]
+) -> None:
+    relative = every_scene["friction_coefficient_error"] / every_scene["friction_coefficient"]
+    assert 0.0 < relative.min() <= relative.max() < 0.1
+    grids = [table[table["aspect"] == 0.75]["friction_coefficient_error"].to_numpy() for table in scales.values()]
+    np.testing.assert_allclose(total["friction_total_error"], np.sum(grids, axis=0), rtol=1e-5)
+
+
 def test_energy_closes_in_every_scene(every_scene: pd.DataFrame) -> None:
     assert every_scene["energy_closure"].max() <= 0.01
 
