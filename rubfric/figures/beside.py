@@ -20,14 +20,15 @@ _SIDES: tuple[tuple[tuple[float, float], str, str], ...] = (
     ((0.7, -0.7), "left", "top"),
     ((-0.7, 0.7), "right", "bottom"),
     ((0.0, -1.0), "center", "top"),
+    ((0.0, 1.0), "center", "bottom"),
 )
-# Pieces in which a line counts as covered, and how much worse it is to leave the panel.
+# Pieces in which a line counts as covered, and how much worse it is to cover words or to leave the panel.
 _PIECES = 24
-_OUTSIDE = 1000
+_WORSE = 1000
 
 
 def write_beside(panel: Axes, place: tuple[float, float], words: str, lines: list[Array], distance: float) -> Any:
-    """Write words beside a point where they cover the fewest pieces of lines, and stay in the panel.
+    """Write words beside a point where they cover the fewest pieces of lines, no other words, and stay in the panel.
 
     Parameters
     ----------
@@ -45,6 +46,7 @@ def write_beside(panel: Axes, place: tuple[float, float], words: str, lines: lis
     -------
     matplotlib.text.Annotation
     """
+    written = [text.get_window_extent() for text in panel.texts]
     pieces = np.concatenate([_pieces(panel.transData.transform(line)) for line in lines]) if lines else np.empty((0, 2))
     tried = []
     for side, (direction, across, upright) in enumerate(_SIDES):
@@ -63,7 +65,8 @@ def write_beside(panel: Axes, place: tuple[float, float], words: str, lines: lis
         inside = (pieces > (box.x0, box.y0)).all(axis=1) & (pieces < (box.x1, box.y1)).all(axis=1)
         frame = panel.get_window_extent()
         leaves = box.x0 < frame.x0 or box.x1 > frame.x1 or box.y0 < frame.y0 or box.y1 > frame.y1
-        tried.append((int(inside.sum()) + _OUTSIDE * leaves, side, note))
+        covers = any(box.overlaps(other) for other in written)
+        tried.append((int(inside.sum()) + _WORSE * (leaves + covers), side, note))
     best = min(tried, key=lambda one: one[:2])[2]
     for _, _, note in tried:
         if note is not best:

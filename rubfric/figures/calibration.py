@@ -30,6 +30,8 @@ _OTHER_MARKER = "X"
 _HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.9, 0.16, 0.11
 _SMALL_TYPE, _NOTE_WIDTH = 6.0, 150
 _MARGIN = 1.5
+# The ratios that are shown.
+_SMALLEST, _LARGEST = 0.01, 300.0
 # Errors below this part of the median one lie at the edge of the panel.
 _LOWEST = 1e-3
 _POINT: dict[str, Any] = {"linestyle": "none", "markersize": 3.0, "markeredgewidth": 0.5, "alpha": 0.7}
@@ -127,7 +129,8 @@ def _scale_ratios(panel: Axes, known: pd.DataFrame) -> None:
     ratio = _ratio(known)
     shown = ratio[np.isfinite(ratio) & (ratio > 0.0)]
     low, high = (float(shown.min()), float(shown.max())) if shown.size else (1.0, 1.0)
-    panel.set(xscale="log", xlim=(min(low, 0.5) / _MARGIN, max(high, 12.0) * _MARGIN), ylim=(0.0, 101.0))
+    left, right = max(min(low, 0.5) / _MARGIN, _SMALLEST), min(max(high, 12.0) * _MARGIN, _LARGEST)
+    panel.set(xscale="log", xlim=(left, right), ylim=(0.0, 101.0))
     tick_decades(panel.xaxis, *panel.get_xlim())
     panel.axvline(1.0, gid="equal", zorder=1.0, **_EQUAL)
     panel.axvline(10.0, gid="tenfold", zorder=1.0, **_TENFOLD)
@@ -137,11 +140,12 @@ def _scale_ratios(panel: Axes, known: pd.DataFrame) -> None:
 def _draw_shares(panel: Axes, rows: pd.DataFrame, colour: Any, dash: Any) -> None:
     """Draw the cumulative distribution of the ratio; a run without true error counts as infinite."""
     left, right = panel.get_xlim()
-    ratio = np.sort(np.clip(_ratio(rows), left, np.inf))
+    # Beyond the panel, but finite: the line leaves the panel at the share that is inside.
+    ratio = np.sort(np.clip(_ratio(rows), 0.1 * left, 10.0 * right))
     shares = 100.0 * np.arange(ratio.size + 1) / ratio.size
-    ends = np.minimum(np.concatenate(([left], ratio, [np.inf])), right)
+    ends = np.concatenate(([0.1 * left], ratio, [10.0 * right]))
     panel.stairs(shares, ends, baseline=None, color=colour, linestyle=dash, linewidth=1.2, gid="shares")
-    panel.plot(np.median(ratio).clip(max=right), 50.0, marker="o", color=colour, gid="median", markersize=3.5)
+    panel.plot(np.median(ratio).clip(left, right), 50.0, marker="o", color=colour, gid="median", markersize=3.5)
 
 
 def _ratio(rows: pd.DataFrame) -> Array:
@@ -183,7 +187,8 @@ def _note(table: pd.DataFrame, known: pd.DataFrame) -> str:
     """Return the note below the panels: how to read them, and what is not shown."""
     told = (
         "Covered: the estimate is at least the true error. Whiskers: what the reference's own error does to the true "
-        "one. Errors below a panel are drawn at its edge. Dots in (b): medians."
+        "one. Errors below panel (a) are drawn at its edge. In (b), dots are medians; what lacks to 100 % lies beyond "
+        "the panel."
     )
     lost = len(table) - len(known)
     if lost:

@@ -41,8 +41,8 @@ _ACROSS = 5
 # In inches: the height of the large panel, of a row of small ones, and of a line of the note.
 _HEIGHT, _SMALL_HEIGHT, _NOTE_LINE = 2.9, 1.75, 0.11
 _SMALL_TYPE, _NOTE_WIDTH, _RUNGS_WIDTH = 6.0, 150, 26
-# The ordinate begins at this part of the smallest median, or of the reference's own error if that is smaller.
-_LOWEST = 0.3
+# The ordinate begins at this part of the smallest median, but shows no more of the reference's own error than this.
+_LOWEST, _OWN = 0.3, 0.1
 _MARGIN = 1.6
 _BOUND: dict[str, Any] = {"facecolor": "0.9", "linewidth": 0.0, "zorder": 0.1}
 _POINT: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 2.6, "markeredgewidth": 0.0, "alpha": 0.45}
@@ -137,7 +137,7 @@ def _scale(axes: Sequence[Axes], ladders: Sequence[Ladder], bound: float) -> Non
     """Give all panels the same limits and ticks, and shade the reference's own error."""
     costs, errors = (np.concatenate([getattr(one, name) for one in ladders]) for name in ("costs", "errors"))
     medians = np.concatenate([[bound], *[one.error for one in ladders]])
-    low = _LOWEST * float(np.min(medians[medians > 0.0], initial=max(1.0, errors.max())))
+    low = max(_LOWEST * float(np.min(medians[medians > 0.0], initial=max(1.0, errors.max()))), _OWN * bound)
     high = max(float(errors.max()), 10.0 * low) * _MARGIN
     left, right = float(costs.min()) / _MARGIN, float(costs.max()) * _MARGIN
     for panel in axes:
@@ -173,8 +173,11 @@ def _draw_presets(panel: Axes, presets: Ladder) -> None:
 def _name_presets(panel: Axes, presets: Ladder, ladders: Sequence[Ladder]) -> None:
     drawn = [np.stack((ladder.cost, _shown(panel, ladder.error)), axis=1) for ladder in ladders]
     drawn += _whiskers(panel, presets)
-    for rung, *place in zip(presets.rungs, presets.cost, _shown(panel, presets.error), strict=True):
-        write_beside(panel, (place[0], place[1]), rung, drawn, 6.0).set_path_effects(_HALO)
+    places = [
+        (float(cost), float(error)) for cost, error in zip(presets.cost, _shown(panel, presets.error), strict=True)
+    ]
+    for rung, place in zip(presets.rungs, places, strict=True):
+        write_beside(panel, place, rung, drawn, 6.0).set_path_effects(_HALO)
 
 
 def _whiskers(panel: Axes, presets: Ladder) -> list[Array]:

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -42,3 +42,9 @@ def test_words_move_off_a_line(panel: Axes) -> None:
 
 def test_words_stay_in_the_panel(panel: Axes) -> None:
     assert side(panel, (0.98, 0.5), []) == ("right", "center")
+
+
+def test_words_do_not_cover_other_words(panel: Axes) -> None:
+    notes = [write_beside(panel, (0.5, 0.5), "word", [], 6.0) for _ in range(3)]
+    boxes = [note.get_window_extent() for note in notes]
+    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))

@@ -65,6 +65,21 @@ def test_shares_are_those_of_the_ratios(make_calibration: Maker) -> None:
     np.testing.assert_allclose(drawn(shares, "median")[0], [[3.0, 50.0]])
 
 
+def test_ratios_beyond_the_panel_keep_their_share(make_calibration: Maker, tmp_path: Path) -> None:
+    table = make_calibration(sets=("inside",))
+    table["error"] = [0.0, 1e-12, 1e-3, 1e-3]
+    table["estimate"] = [1e-3, 1e-3, 2e-3, 1e-9]
+    figure = calibration.draw(table)
+    shares = figure.axes[1]
+    (steps,) = (patch for patch in shares.patches if patch.get_gid() == "shares")
+    values, edges, _ = steps.get_data()
+    left, right = shares.get_xlim()
+    assert right / left < 1e5
+    inside = (edges[:-1] < right) & (edges[1:] > left)
+    assert values[inside].tolist() == [25.0, 50.0]
+    style.save(figure, tmp_path / "beyond.png")
+
+
 def test_legend_tells_coverage_and_median_ratio(make_calibration: Maker) -> None:
     table = make_calibration()
     table.loc[table["set"] == "outside", "covered"] = False

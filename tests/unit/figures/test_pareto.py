@@ -73,6 +73,12 @@ def test_errors_below_the_panel_lie_on_its_edge(make_ladder: Maker, tmp_path: Pa
     style.save(figure, tmp_path / "edge.png")
 
 
+def test_panel_goes_no_deeper_than_a_tenth_of_the_reference_s_own_error(make_ladder: Maker) -> None:
+    table = make_ladder()
+    table.loc[table["rung"] == "64", "error"] = 1e-9
+    assert pareto.draw(table).axes[0].get_ylim()[0] == pytest.approx(0.1 * 0.02)
+
+
 def test_nothing_but_zeros_is_drawn(make_ladder: Maker, tmp_path: Path) -> None:
     table = make_ladder()
     table[["error", "reference_error"]] = 0.0
@@ -87,6 +93,18 @@ def test_no_words_cover_each_other(
     style.save(figure, tmp_path / "figure.png")
     assert overlaps(figure) == []
     assert len(figure.axes) == 1 + len(set(knobs) - {"preset"})
+
+
+def test_names_of_presets_that_cost_the_same_stay_apart(
+    make_ladder: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+) -> None:
+    table = make_ladder(KNOBS)
+    presets = table["knob"] == "preset"
+    table.loc[presets, "cost"] = table.loc[presets, "rung"].map({"draft": 0.9, "standard": 1.0, "reference": 1.1})
+    table.loc[presets, "error"] = 0.01
+    figure = pareto.draw(table)
+    style.save(figure, tmp_path / "figure.png")
+    assert overlaps(figure) == []
 
 
 def test_figure_says_what_it_shows(make_ladder: Maker, words: Callable[[Figure], list[str]]) -> None:
