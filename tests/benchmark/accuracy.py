@@ -1,4 +1,4 @@
-"""Publish what ``snakemake -j2 accuracy`` has measured: presets and calibration in the README, page and figures in docs.
+"""Publish what ``snakemake -j2 accuracy`` has measured: tables in the README, page and figures in docs.
 
 It refuses where the presets of the config are not those that the measurements choose.
 """
