@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -124,6 +124,8 @@ class Campaign:
         aspect: float | None = None,
         plane: str | None = None,
         kinematics: str | None = None,
+        preset: str | None = None,
+        accuracy: float | None = None,
     ) -> Scene:
         """Return any scene of this rubber on this road, in the grid or not.
 
@@ -141,8 +143,13 @@ class Campaign:
             The config's by default.
         kinematics : {"small", "finite", "auto"}, optional
             The config's by default.
+        preset : str, optional
+            One of the config's presets, instead of its numerics.
+        accuracy : float, optional
+            Relative accuracy of friction, instead of that of the preset or of the numerics.
         """
         index = scale_number("scale", scale, len(self.road))
+        numerics = self.presets[checks.one_of("preset", preset, self.presets)] if preset else self.numerics
         return Scene(
             scale=index,
             road=self.road[index - 1],
@@ -152,7 +159,7 @@ class Campaign:
             material=self.material,
             plane=self.plane if plane is None else plane,
             kinematics=self.kinematics if kinematics is None else kinematics,
-            numerics=self.numerics,
+            numerics=numerics if accuracy is None else replace(numerics, accuracy=accuracy),
         )
 
     @property

@@ -16,6 +16,7 @@ from rubfric.scene import KINEMATICS, Scene
 _EXAMPLE = """\
 example:
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --aspect 0.75
+  rubfric simulate --scale 1 --velocity 100 --pressure 5 --accuracy 0.002
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
 
@@ -95,6 +96,10 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
         choices=KINEMATICS,
         help="small or finite strain, or what the scene needs (default: the config's)",
     )
+    command.add_argument("--preset", metavar="NAME", help="one of the config's presets, instead of its numerics")
+    command.add_argument(
+        "--accuracy", type=float, metavar="A", help="relative accuracy of friction, 0.01 say (default: the config's)"
+    )
     command.add_argument(
         "--config",
         action="append",
@@ -108,9 +113,8 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
 def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     """Return the campaign and the scene that the options name."""
     campaign = campaigns.load(*_configs(options.config or []))
-    scene = campaign.scene(
-        options.scale, options.velocity, options.pressure, options.aspect, options.plane, options.kinematics
-    )
+    names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy")
+    scene = campaign.scene(**{name: getattr(options, name) for name in names})
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene

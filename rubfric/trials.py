@@ -71,9 +71,9 @@ def drawn_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
 
 def _drawn(campaign: Campaign, rng: np.random.Generator, kind: str, number: int) -> Scene:
     scale = int(rng.integers(len(campaign.road))) + 1
-    values = {name: _between(rng, *limits) for name, limits in _RANGES[kind].items()}
+    velocity, pressure, aspect = (_between(rng, *limits) for limits in _RANGES[kind].values())
     plane = PLANES[int(rng.integers(len(PLANES)))]
-    scene = campaign.scene(scale, **values, plane=plane, kinematics="small" if number % 3 == 2 else "auto")
+    scene = campaign.scene(scale, velocity, pressure, aspect, plane, "small" if number % 3 == 2 else "auto")
     if kind == "inside":
         return scene
     wavenumber = 2.0 * math.pi / _between(rng, *_WAVELENGTHS)

@@ -24,8 +24,8 @@ from rubfric.figures.scaling import tick_decades
 Array = NDArray[np.float64]
 
 _PRESET = "preset"
-# Candidates for presets are no ladder: neither of two of them need be the finer one.
-_NO_LADDER = "start"
+# First meshes among which presets are chosen: many, and all near the presets.
+_LEFT_OUT = "start"
 # The knobs in words; one that is not here goes by its own name.
 _WORDS = {
     "mesh": "whole mesh",
@@ -79,7 +79,7 @@ def draw(table: pd.DataFrame) -> Figure:
         A row per scene, knob and rung, the rungs of a knob from coarse to fine. Columns ``scene``, ``knob``, ``rung``;
         ``error`` (relative, against the reference), ``cost`` (seconds over those of the preset ``standard`` of the
         same scene), ``reference`` (friction coefficient) and ``reference_error`` (its absolute bound). A run without
-        error or cost is left out, and counted in the note; so is the knob ``start``, the candidates for presets.
+        error or cost is left out, and counted in the note; the knob ``start`` is not drawn.
 
     Returns
     -------
@@ -94,9 +94,9 @@ def draw(table: pd.DataFrame) -> Figure:
         For a table without rows, without a column, with a gap in a name or a negative number, or without any run that
         has both error and cost.
     """
-    known_runs(table)
-    table = table[table["knob"] != _NO_LADDER]
-    known, ladders = known_runs(table), by_knob(table)
+    table = table[table["knob"] != _LEFT_OUT] if "knob" in table else table
+    known = known_runs(table)
+    ladders = by_knob(table)
     presets = ladders.pop(_PRESET, None)
     bound = own_error(known)
     looks = style.kinds(len(ladders))
