@@ -31,9 +31,8 @@ def read_numerics(entry: Any, presets: Any) -> Numerics:
     """
     if not isinstance(presets, Mapping) or not presets:
         raise InvalidInput(f"presets is {presets!r}, but must hold at least one entry by name")
-    names = tuple(field.name for field in fields(Numerics))
-    own = tuple(name for name in names if name not in PRESET_KEYS)
-    given = dict(checks.known_keys("numerics", entry, ("preset", *names), ("preset", *own)))
+    own = tuple(field.name for field in fields(Numerics) if field.name not in PRESET_KEYS)
+    given = dict(checks.known_keys("numerics", entry, ("preset", *own, *PRESET_KEYS), ("preset", *own)))
     chosen = checks.one_of("numerics.preset", given.pop("preset"), presets)
     for name, preset in presets.items():
         checks.known_keys(f"presets.{checks.text('name in presets', name)}", preset, PRESET_KEYS, PRESET_KEYS)
