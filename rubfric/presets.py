@@ -8,7 +8,7 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.errors import InvalidInput
-from rubfric.scene import Numerics
+from rubfric.scene import MOST_COLUMNS, Numerics
 
 # What a preset sets; the rest of Numerics stands under the key numerics itself.
 PRESET_KEYS = ("accuracy", "contact_nodes", "finite_contact_nodes", "columns_min", "finite_columns_min", "row_growth")
@@ -37,8 +37,8 @@ def read_numerics(entry: Any, presets: Any) -> Numerics:
     for name, preset in presets.items():
         checks.known_keys(f"presets.{checks.text('name in presets', name)}", preset, PRESET_KEYS, PRESET_KEYS)
     rest = {name: given[name] for name in own}
-    for name, preset in presets.items():
-        _checked(f"presets.{name}.", rest | dict(preset))
+    for name, preset in presets.items():  # a bound on columns concerns the one chosen
+        _checked(f"presets.{name}.", rest | dict(preset) | {"columns_max": MOST_COLUMNS})
     return Numerics(**{**presets[chosen], **given})
 
 
