@@ -104,31 +104,33 @@ def climb(name: str, scene: Scene, presets: Mapping[str, Numerics]) -> pd.DataFr
         iterations, krylov, memory_MB, columns, rows, meshes, kinematics, plane, note.
     """
     reference = converge(scene)
+    measured: dict[Scene, dict[str, Any]] = {}  # several knobs share a rung
     found: list[dict[str, Any]] = []
     for rung in rungs(scene, presets):
-        try:
-            found.append(_steady(rung))
-        except NotConverged as error:
-            found.append({"knob": rung.knob, "rung": rung.rung, "note": str(error)})
+        if rung.scene not in measured:
+            measured[rung.scene] = _steady(rung.scene)
+        found.append({"knob": rung.knob, "rung": rung.rung} | measured[rung.scene])
     standard = next(row for row in found if (row["knob"], row["rung"]) == ("mesh", "1"))
     if standard["columns"] <= _MARCH_COLUMNS:
         found += _marches(scene, presets["standard"], int(standard["columns"]) // 16 * 8)
     return _table(name, scene, reference, found)
 
 
-def _steady(rung: Rung) -> dict[str, Any]:
+def _steady(scene: Scene) -> dict[str, Any]:
     def compute() -> SteadySolution:
-        solution = solve(rung.scene)
+        solution = solve(scene)
         evaluate(solution)
         return solution
 
-    cost = measure(compute, _SECONDS, _TIMES)
+    try:
+        cost = measure(compute, _SECONDS, _TIMES)
+    except NotConverged as error:
+        return {"note": str(error)}
     solution = cost.result
+    asked = scene.kinematics == "small"
     return {
-        "knob": rung.knob,
-        "rung": rung.rung,
         "friction_coefficient": solution.friction.stress_power,
-        "estimate": friction_error(solution),
+        "estimate": float("nan") if asked else friction_error(solution),
         "seconds": cost.seconds,
         "iterations": solution.iterations,
         "krylov": solution.krylov,
@@ -137,7 +139,7 @@ def _steady(rung: Rung) -> dict[str, Any]:
         "rows": solution.block.rows,
         "meshes": len(solution.meshes),
         "kinematics": solution.decision.kinematics,
-        "note": "" if solution.resolved else "fewer contact nodes than asked for",
+        "note": "estimates are to small strain where it is asked for" if asked else "",
     }
 
 

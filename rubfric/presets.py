@@ -57,16 +57,24 @@ def read_numerics(entry: Any, presets: Any) -> tuple[Numerics, dict[str, Numeric
     """
     if not isinstance(presets, Mapping) or not presets:
         raise InvalidInput(f"presets is {presets!r}, but must hold at least one entry by name")
-    names = tuple(field.name for field in fields(Numerics))
-    own = tuple(name for name in names if name not in PRESET_KEYS)
-    given = dict(checks.known_keys("numerics", entry, ("preset", *names), ("preset", *own)))
-    rest = {name: given[name] for name in own}
-    every = {}
-    for name, preset in presets.items():
-        at = f"presets.{checks.text('name in presets', name)}"
-        every[name] = _checked(at, rest | dict(checks.known_keys(at, preset, PRESET_KEYS, PRESET_KEYS)))
+    own = tuple(field.name for field in fields(Numerics) if field.name not in PRESET_KEYS)
+    given = dict(checks.known_keys("numerics", entry, ("preset", *own, *PRESET_KEYS), ("preset", *own)))
     chosen = checks.one_of("numerics.preset", given.pop("preset"), presets)
+    for name, preset in presets.items():
+        checks.known_keys(f"presets.{checks.text('name in presets', name)}", preset, PRESET_KEYS, PRESET_KEYS)
+    rest = {name: given[name] for name in own}
+    every = {
+        name: _checked(f"presets.{name}", _enough_columns(rest | dict(preset))) for name, preset in presets.items()
+    }
     return Numerics(**{**presets[chosen], **given}), every
+
+
+def _enough_columns(values: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a preset's values with at least the columns that it begins with: a bound concerns the preset in use."""
+    counts = [values[name] for name in ("columns_min", "finite_columns_min", "columns_max")]
+    if any(isinstance(count, bool) or not isinstance(count, int) for count in counts):
+        return values
+    return {**values, "columns_max": max(counts)}
 
 
 def _checked(at: str, values: Mapping[str, Any]) -> Numerics:

@@ -59,11 +59,11 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
             break
         resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, solver.finite)
     for _ in range(scene.numerics.refinements):
-        error = discretisation_error(meshes)
-        excess = error / allowance(solution) if error else 0.0
-        if excess <= 1.0 or resolution.columns >= most:
+        friction, error, allowed = solution.friction, discretisation_error(meshes), allowance(solution)
+        helps = abs(friction.stress_power) > friction.resolution and resolution.columns < most
+        if not (helps and 0.0 < allowed < error):
             break
-        factor = min(max(_MARGIN * excess ** (1.0 / ORDER), _LEAST), _MOST)
+        factor = min(max(_MARGIN * (error / allowed) ** (1.0 / ORDER), _LEAST), _MOST)
         resolution = resolution.finer(scene, factor, solver.finite)
         solution = _solved(solver, resolution, meshes)
     return dataclasses.replace(solution, meshes=tuple(meshes))

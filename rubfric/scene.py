@@ -17,6 +17,8 @@ KINEMATICS = ("small", "finite", "auto")
 DILATATIONS = ("auto", "pointwise", "mean")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
+# Most columns that may be asked for.
+MOST_COLUMNS = 2**20
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,7 @@ class Numerics:
             put(self, name, checks.whole(at + name, getattr(self, name), fewest))
             checks.at_most(at + name, getattr(self, name), highest)
         for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
-            put(self, name, checks.multiple(at + name, getattr(self, name), 8, 2**20))
+            put(self, name, checks.multiple(at + name, getattr(self, name), 8, MOST_COLUMNS))
         checks.one_of(at + "dilatation", self.dilatation, DILATATIONS)
         checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 

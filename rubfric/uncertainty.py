@@ -13,6 +13,9 @@ ORDER = 1.5
 # How many times the extrapolated change from mesh to mesh, and the difference between two routes, the error may be:
 # calibrated, see the page on accuracy.
 _CHANGE, _ROUTES = 1.5, 1.3
+# Two meshes may agree by chance, the error along the road against that over the depth: no error is taken to be smaller
+# than this times the square of the mesh's size there, in the wave's own measure.
+_LEAST = 1.0 / 16.0
 # A mesh hardly finer than another says nothing of it.
 _LEAST_RATIO = 1.1
 
@@ -20,11 +23,16 @@ _LEAST_RATIO = 1.1
 def discretisation_error(meshes: Sequence[OnMesh]) -> float:
     """Return the estimated error of friction by stress power on the last mesh, absolute, dimensionless.
 
-    Every coarser mesh extrapolates to an error by either route, and the difference between the routes is another:
-    the largest counts.
+    Every coarser mesh extrapolates to an error by either route, the difference between the routes is another, and the
+    size of the cells (2 pi / columns along the road, the growth of the rows over the depth) allows none smaller than
+    its square over 16: the largest counts.
     """
     *coarser, fine = meshes
-    found = [_ROUTES * abs(fine.friction.stress_power - fine.friction.contact)]
+    size = 2.0 * math.pi / fine.columns + fine.growth - 1.0
+    found = [
+        _ROUTES * abs(fine.friction.stress_power - fine.friction.contact),
+        _LEAST * size**2 * abs(fine.friction.stress_power),
+    ]
     for mesh in coarser:
         ratio = max(math.sqrt(fine.columns / mesh.columns * (mesh.growth - 1.0) / (fine.growth - 1.0)), _LEAST_RATIO)
         power = abs(fine.friction.stress_power - mesh.friction.stress_power)

@@ -20,9 +20,12 @@ PROPORTIONAL = Material("soft", 4.17, 0.45, (0.3, 0.4), (1e-3, 1e-5), bulk="prop
 ELASTIC = Material("elastic", 4.17, 0.45, (), ())
 
 
-def coarse(plane: str, material: Material = RUBBER, columns: int = 16, velocity: float = 100.0) -> FiniteBlock:
-    """Return a block of eight rows or a few more, 0.75 times as high as wide."""
-    return FiniteBlock(Block.graded(WIDTH, 0.75 * WIDTH, columns, plane, growth=1.6), material, velocity)
+def coarse(
+    plane: str, material: Material = RUBBER, columns: int = 16, velocity: float = 100.0, dilatation: str = "auto"
+) -> FiniteBlock:
+    """Return a block of a few rows, 0.75 times as high as wide."""
+    block = Block.graded(WIDTH, 0.75 * WIDTH, columns, plane, growth=1.6, dilatation=dilatation)
+    return FiniteBlock(block, material, velocity)
 
 
 def uniform(finite: FiniteBlock, stretch: float, shear: float, thickness: float) -> Fields:

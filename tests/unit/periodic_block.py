@@ -52,11 +52,15 @@ class PeriodicBlock:
     def _assemble(self, form: BilinearForm, basis: Basis) -> csr_matrix:
         return self.tie.T @ form.assemble(basis) @ self.tie
 
-    def forms(self, plane: str) -> tuple[csr_matrix, csr_matrix]:
-        """Return the forms that the shear modulus and the modulus of dilatation weigh."""
+    def forms(self, plane: str, pointwise: bool) -> tuple[csr_matrix, csr_matrix]:
+        """Return the forms that the shear modulus and the modulus of dilatation weigh.
+
+        Dilatation counts point by point, or by its mean over each cell, which is that at its centre.
+        """
         exact = Basis(self.mesh, self.element, intorder=4)
         strain, dilatation = (self._assemble(form, exact) for form in (strain_product, dilatation_product))
-        if plane == "stress":
-            return 2.0 * strain, dilatation
+        shear = 2.0 * strain if plane == "stress" else 2.0 * strain - 2.0 / 3.0 * dilatation
+        if pointwise:
+            return shear, dilatation
         centre = Basis(self.mesh, self.element, quadrature=(np.array([[0.5], [0.5]]), np.array([1.0])))
-        return 2.0 * strain - 2.0 / 3.0 * dilatation, self._assemble(dilatation_product, centre)
+        return shear, self._assemble(dilatation_product, centre)

@@ -5,17 +5,18 @@ import pytest
 from numpy.typing import NDArray
 from periodic_block import PeriodicBlock
 
-from rubfric.block import FEWEST_ROWS, Block, RowOperator, graded_rows
+from rubfric.block import Block, RowOperator, fewest_rows, graded_rows
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+DILATATIONS = pytest.mark.parametrize("dilatation", ["auto", "pointwise", "mean"])
 COLUMNS = 12
 
 
-def small_block(plane: str) -> Block:
+def small_block(plane: str, dilatation: str = "auto") -> Block:
     """Return a block with rows of very different heights."""
-    return Block(1.7, 0.9, COLUMNS, np.array([0.0, 0.05, 0.2, 0.3, 0.9]), plane)
+    return Block(1.7, 0.9, COLUMNS, np.array([0.0, 0.05, 0.2, 0.3, 0.9]), plane, dilatation)
 
 
 def harmonic_forces(operator: RowOperator, rows: Complex, angle: float) -> Complex:
@@ -28,17 +29,28 @@ def harmonic_forces(operator: RowOperator, rows: Complex, angle: float) -> Compl
     return forces
 
 
-@PLANES
+@pytest.mark.parametrize(
+    ("plane", "dilatation", "pointwise"),
+    [
+        ("stress", "auto", True),
+        ("strain", "auto", False),
+        *((plane, "pointwise", True) for plane in ("stress", "strain")),
+        *((plane, "mean", False) for plane in ("stress", "strain")),
+    ],
+)
 @pytest.mark.parametrize("harmonic", [0, 1, 2, 5, COLUMNS // 2])
-def test_operators_equal_a_full_periodic_assembly(plane: str, harmonic: int, rng: np.random.Generator) -> None:
-    block = small_block(plane)
+def test_operators_equal_a_full_periodic_assembly(
+    plane: str, dilatation: str, pointwise: bool, harmonic: int, rng: np.random.Generator
+) -> None:
+    block = small_block(plane, dilatation)
+    assert block.pointwise == pointwise
     full = PeriodicBlock(block.column_positions, block.width, block.row_positions)
     rows = rng.standard_normal((block.rows + 1, 2)) + 1j * rng.standard_normal((block.rows + 1, 2))
     angle = 2.0 * np.pi * harmonic / COLUMNS
     wave = np.exp(1j * angle * np.arange(COLUMNS))
     displacement = rows[:, :, None] * wave  # row, component, column
     displacement[:, 0] *= -1j
-    for operator, matrix in zip(block.operators(), full.forms(plane), strict=True):
+    for operator, matrix in zip(block.operators(), full.forms(plane, pointwise), strict=True):
         forces = (matrix @ displacement.ravel()).reshape(displacement.shape) / wave
         forces[:, 0] *= 1j
         expected = harmonic_forces(operator, rows, angle)
@@ -55,8 +67,9 @@ def test_operators_do_not_depend_on_the_size_of_the_block(plane: str) -> None:
 
 
 @PLANES
-def test_rigid_motion_costs_nothing(plane: str) -> None:
-    block = small_block(plane)
+@DILATATIONS
+def test_rigid_motion_costs_nothing(plane: str, dilatation: str) -> None:
+    block = small_block(plane, dilatation)
     rigid = np.tile(np.array([0.3, -1.1]), (block.rows + 1, 1)).astype(complex)
     for operator in block.operators():
         np.testing.assert_allclose(harmonic_forces(operator, rigid, 0.0), 0.0, atol=1e-13)
@@ -89,10 +102,18 @@ def test_growth_of_almost_one_gives_even_rows() -> None:
     np.testing.assert_allclose(heights, heights[0], rtol=1e-6)
 
 
-@pytest.mark.parametrize("height", [0.08, 0.05, 1e-4])
-def test_flat_blocks_keep_eight_even_rows(height: float) -> None:
-    rows = graded_rows(height, 0.01, 1.15)
-    np.testing.assert_allclose(rows, np.linspace(0.0, height, FEWEST_ROWS + 1), rtol=1e-12)
+@pytest.mark.parametrize("height", [0.04, 0.01, 1e-4])
+@pytest.mark.parametrize("growth", [2.0, 1.3, 1.15, 1.1, 1.01])
+def test_flat_blocks_keep_the_fewest_rows_and_all_alike(height: float, growth: float) -> None:
+    rows = graded_rows(height, 0.01, growth)
+    np.testing.assert_allclose(rows, np.linspace(0.0, height, fewest_rows(growth) + 1), rtol=1e-12)
+
+
+def test_fewest_rows_are_more_the_slower_they_grow_and_bounded() -> None:
+    assert [fewest_rows(growth) for growth in (1.1, 1.05, 1.2)] == [12, 24, 6]
+    fewest = [fewest_rows(growth) for growth in (3.0, 2.0, 1.5, 1.3, 1.1, 1.05, 1.03, 1.01, 1.00001)]
+    assert fewest == sorted(fewest)
+    assert (fewest[0], fewest[-1]) == (4, 64)
 
 
 def test_block_starts_with_cells_of_the_shape_asked_for() -> None:

@@ -15,6 +15,7 @@ from rubfric.road import SineScale
 from rubfric.scene import Numerics, Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 from rubfric.solution import Decision, SteadySolution
+from rubfric.uncertainty import friction_error
 
 RUBBER = Material("soft", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
 COARSE = Numerics(
@@ -26,11 +27,11 @@ Solve = Callable[[Scene], SteadySolution]
 
 
 def small(scene: Scene, correction: float = 0.0) -> SmallSolution:
-    return solve_small(scene, Decision("small", correction, "small strain was asked for"))
+    return solve_small(replace(scene, kinematics="small"), Decision("small", correction, "small strain was asked for"))
 
 
 def finite(scene: Scene) -> FiniteSolution:
-    return solve_finite(scene, Decision("finite", 0.9, "finite strain was asked for"))
+    return solve_finite(replace(scene, kinematics="finite"), Decision("finite", 0.9, "finite strain was asked for"))
 
 
 def negative_ratio(paper_rubber: Material) -> Scene:
@@ -120,7 +121,7 @@ def test_surface_about_to_fold_is_noted(monkeypatch: pytest.MonkeyPatch, stretch
 
 @pytest.mark.parametrize("solve", [small, finite])
 def test_contact_that_the_mesh_cannot_resolve_is_noted(solve: Solve) -> None:
-    few = replace(COARSE, columns_max=64, contact_nodes=32, finite_contact_nodes=32)
+    few = replace(COARSE, accuracy=0.5, columns_max=64, contact_nodes=32, finite_contact_nodes=32)
     solution = solve(replace(SCENE, numerics=few))
     touching = np.count_nonzero(solution.contact.touching)
     assert touching < 0.9 * 32
@@ -129,9 +130,30 @@ def test_contact_that_the_mesh_cannot_resolve_is_noted(solve: Solve) -> None:
     ]
 
 
+@pytest.mark.parametrize("solve", [small, finite])
+def test_accuracy_that_is_not_met_is_noted(solve: Solve) -> None:
+    scene = replace(SCENE, numerics=replace(COARSE, refinements=0))
+    solution = solve(scene)
+    error = friction_error(solution) / solution.friction.stress_power
+    for accuracy, noted in ((0.99 * error, True), (1.01 * error, False)):
+        asked = replace(solution, scene=replace(scene, numerics=replace(scene.numerics, accuracy=accuracy)))
+        note = (
+            f"The accuracy asked for, {accuracy:.2%}, is not met: the estimated error is {error:.2%} after "
+            f"{len(solution.meshes)} meshes; raise numerics.refinements or columns_max."
+        )
+        assert cautions(asked, 0.0) == ([note] if noted else NOTHING)
+
+
+@pytest.mark.parametrize("solve", [small, finite])
+def test_scene_without_friction_has_no_relative_accuracy(solve: Solve) -> None:
+    elastic = Material("elastic", 4.17, 0.49, (), ())
+    assert cautions(solve(replace(SCENE, material=elastic)), 0.0) == NOTHING
+
+
 def test_cautions_add_up(paper_rubber: Material) -> None:
     scene = replace(negative_ratio(replace(paper_rubber, density=1e-3)), numerics=replace(COARSE, columns_max=64))
     notes = cautions(small(scene, 0.5), 0.3)
-    subjects = ("Poisson's ratio", "sliding speed", "Finite strain", "three friction coefficients", "surface nodes")
+    subjects = ("Poisson's ratio", "sliding speed", "Finite strain", "three friction coefficients")
+    subjects += ("accuracy asked for", "surface nodes")
     assert len(notes) == len(subjects)
     assert all(subject in note for subject, note in zip(subjects, notes, strict=True))

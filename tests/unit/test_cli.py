@@ -20,7 +20,7 @@ SCENE += ["--kinematics", "small"]  # the faster one
 
 
 def printed_friction(text: str) -> str:
-    found = re.search(r"^friction coefficient +(\S+)$", text, re.MULTILINE)
+    found = re.search(r"^friction coefficient +(\S+) \+- \S+$", text, re.MULTILINE)
     assert found
     return found[1]
 

@@ -10,6 +10,7 @@ import yaml
 
 from rubfric.errors import InvalidInput
 from rubfric.material import Material
+from rubfric.presets import read_numerics
 from rubfric.road import SineScale
 from rubfric.scene import Numerics, Scene
 
@@ -75,6 +76,10 @@ def test_from_parameters_leaves_its_argument_alone(paper_scene: SceneMaker) -> N
         {"numerics": Numerics(accuracy=0.02)},
         {"numerics": Numerics(finite_contact_nodes=25)},
         {"numerics": Numerics(finite_columns_min=136)},
+        {"numerics": Numerics(refinements=2)},
+        {"numerics": Numerics(dilatation="mean")},
+        {"numerics": Numerics(folding=0.0)},
+        {"numerics": Numerics(tolerance=1e-7)},
         {"kinematics": "finite"},
         {"kinematics": "auto"},
     ],
@@ -151,6 +156,15 @@ def test_bad_scenes_are_refused(paper_scene: SceneMaker, change: dict[str, objec
         ({"row_growth": 3.5}, r"^numerics\.row_growth is 3\.5, but must be at most 3$"),
         ({"first_row": 0.0}, r"^numerics\.first_row is 0, but must be at least 0\.01$"),
         ({"first_row": "1e0"}, r"^numerics\.first_row is the text '1e0'"),
+        ({"first_row": 101.0}, r"^numerics\.first_row is 101, but must be at most 100$"),
+        ({"refinements": -1}, r"^numerics\.refinements is -1, but must be a whole number of at least 0$"),
+        ({"refinements": 13}, r"^numerics\.refinements is 13, but must be at most 12$"),
+        ({"refinements": 1.5}, r"^numerics\.refinements is 1\.5, but must be a whole number of at least 0$"),
+        ({"dilatation": "point"}, r"^numerics\.dilatation is 'point', but must be one of auto, pointwise, mean"),
+        ({"folding": -0.1}, r"^numerics\.folding is -0\.1, but must be at least 0$"),
+        ({"folding": 1.1}, r"^numerics\.folding is 1\.1, but must be at most 1$"),
+        ({"tolerance": 1e-13}, r"^numerics\.tolerance is 1e-13, but must be at least 1e-12$"),
+        ({"tolerance": 0.1}, r"^numerics\.tolerance is 0\.1, but must be at most 0\.01$"),
     ],
 )
 def test_bad_numerics_are_refused(change: dict[str, object], complaint: str) -> None:
@@ -192,4 +206,4 @@ def test_name_does_not_tell_the_kinematics(paper_scene: SceneMaker) -> None:
 
 def test_config_and_code_have_the_same_numerics() -> None:
     config = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text(encoding="utf-8"))
-    assert Numerics(**config["numerics"]) == Numerics()
+    assert read_numerics(config["numerics"], config["presets"]) == Numerics()

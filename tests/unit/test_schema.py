@@ -18,7 +18,8 @@ from rubfric.campaign import Campaign
 from rubfric.choices import AspectStudy
 from rubfric.errors import InvalidInput
 from rubfric.material import BULK, MODULI, PLANES, Material
-from rubfric.scene import Numerics
+from rubfric.presets import PRESET_KEYS
+from rubfric.scene import DILATATIONS, Numerics
 
 SCHEMA: dict[str, Any] = yaml.safe_load((ROOT / "workflow" / "schemas" / "config.schema.yaml").read_text())
 UNITS = re.compile(r"(?<![\w/])(mm/s|MPa|1/mm|t/mm³|mm|s)(?![\w/'])|\bdimensionless\b")
@@ -30,6 +31,7 @@ MAPPINGS = {
     "figures": "properties.figures",
     "figures.fields": "properties.figures.properties.fields",
     "numerics": "properties.numerics",
+    "presets.draft": "properties.presets.additionalProperties",
     "rubbers.zhou2019": "properties.rubbers.additionalProperties",
     "roads.zhou2019.0": "properties.roads.additionalProperties.items",
 }
@@ -85,7 +87,7 @@ def test_schema_is_valid() -> None:
 
 def test_every_object_is_closed_or_describes_its_entries() -> None:
     objects = {at: node for at, node in nodes(SCHEMA) if node.get("type") == "object"}
-    assert len(objects) == 11
+    assert len(objects) == 13
     assert all("additionalProperties" in node for node in objects.values())
     assert all(node["additionalProperties"] is False for node in objects.values() if "properties" in node)
     assert all(isinstance(node["additionalProperties"], dict) for node in objects.values() if "properties" not in node)
@@ -118,7 +120,7 @@ def test_schema_and_reader_require_the_same_keys(config: Config, at: str, descri
     node = entry(SCHEMA, described)
     for key in node["properties"]:
         without = copy.deepcopy(config)
-        del entry(without, at)[key]
+        entry(without, at).pop(key, None)  # a preset's key may be missing already
         if key in node["required"]:
             with pytest.raises(InvalidInput, match=f"lacks the key '{key}'$"):
                 Campaign.from_config(without)
@@ -131,7 +133,11 @@ def test_keys_are_those_of_the_classes() -> None:
         return [field.name for field in fields(data)]  # type: ignore[arg-type]
 
     rubber = entry(SCHEMA, MAPPINGS["rubbers.zhou2019"])
-    assert list(entry(SCHEMA, MAPPINGS["numerics"])["properties"]) == names(Numerics)
+    numerics, preset = (entry(SCHEMA, MAPPINGS[at]) for at in ("numerics", "presets.draft"))
+    assert tuple(preset["properties"]) == tuple(preset["required"]) == PRESET_KEYS
+    assert sorted(numerics["properties"]) == sorted(["preset", *names(Numerics)])
+    assert sorted(numerics["required"]) == sorted({"preset", *names(Numerics)} - set(PRESET_KEYS))
+    assert {key: numerics["properties"][key] for key in PRESET_KEYS} == preset["properties"]
     assert list(entry(SCHEMA, MAPPINGS["aspect_study"])["properties"]) == names(AspectStudy)
     assert ["name", *rubber["properties"]] == names(Material)
     assert ["name", *rubber["required"]] == [field.name for field in fields(Material) if field.default is NO_DEFAULT]
@@ -140,6 +146,7 @@ def test_keys_are_those_of_the_classes() -> None:
 def test_choices_are_those_of_the_code() -> None:
     rubber = entry(SCHEMA, MAPPINGS["rubbers.zhou2019"])["properties"]
     assert tuple(SCHEMA["properties"]["plane"]["enum"]) == PLANES
+    assert tuple(SCHEMA["properties"]["numerics"]["properties"]["dilatation"]["enum"]) == DILATATIONS
     assert tuple(rubber["moduli"]["enum"]) == MODULI
     assert tuple(rubber["bulk"]["enum"]) == BULK
 

@@ -27,13 +27,15 @@ def road() -> SineScale:
     return SineScale(0.015, 35.0)
 
 
-def small_block(road: SineScale, plane: str) -> Block:
-    return Block.graded(road.wavelength, 0.4 * road.wavelength, COLUMNS, plane, growth=1.3, first_row=0.7)
+def small_block(road: SineScale, plane: str, dilatation: str = "auto") -> Block:
+    return Block.graded(
+        road.wavelength, 0.4 * road.wavelength, COLUMNS, plane, growth=1.3, first_row=0.7, dilatation=dilatation
+    )
 
 
 def full_stiffness(block: Block, material: Material, frequency: float) -> csr_matrix:
     full = PeriodicBlock(block.column_positions, block.width, block.row_positions)
-    shear, dilatation = full.forms(block.plane)
+    shear, dilatation = full.forms(block.plane, block.pointwise)
     weights = stiffness_moduli(material, np.array([frequency]), block.plane)
     return weights[0][0] * shear + weights[1][0] * dilatation
 

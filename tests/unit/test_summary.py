@@ -14,6 +14,7 @@ VALUES: dict[str, Any] = {
     "friction_coefficient": 0.123456,
     "friction_coefficient_dissipation": 0.123450,
     "friction_coefficient_contact": 0.123444,
+    "friction_coefficient_error": 0.000456,
     "energy_closure": 9.72e-05,
     "contact_fraction": 0.45678,
     "maximum_contact_pressure": 11.2222,
@@ -28,6 +29,7 @@ VALUES: dict[str, Any] = {
     "effective_poissons_ratio": 0.31234,
     "shear_wave_speed_ratio": 0.01234,
     "excitation_frequency": 3500.0,
+    "meshes": 3,
     "columns": 360,
     "rows": 21,
     "contact_nodes": 64,
@@ -66,7 +68,7 @@ def test_first_line_tells_the_scene_with_units(result: xr.Dataset) -> None:
 @pytest.mark.parametrize(
     ("label", "value"),
     [
-        ("friction coefficient", "0.12346"),
+        ("friction coefficient", "0.12346 +- 0.0005"),
         ("from viscous dissipation", "0.12345"),
         ("from contact pressure", "0.12344"),
         ("largest difference", "9.7e-05 (relative)"),
@@ -75,7 +77,7 @@ def test_first_line_tells_the_scene_with_units(result: xr.Dataset) -> None:
         ("nominal compression", "0.0889"),
         ("effective Poisson's ratio", "0.3123"),
         ("speed over shear-wave speed", "0.012"),
-        ("mesh", "360 x 21 cells, 64 nodes in contact"),
+        ("mesh", "360 x 21 cells, 64 nodes in contact; 3 meshes"),
         ("solved in", "42 ms, 17 contact steps"),
         ("kinematics", "small strain is accurate enough"),
     ],

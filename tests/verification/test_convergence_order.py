@@ -92,7 +92,7 @@ def test_friction_is_second_order_in_columns(paper_scene: SceneMaker, plane: str
 
 @PLANES
 def test_friction_is_second_order_in_even_rows(paper_scene: SceneMaker, plane: str) -> None:
-    first_rows = np.array([256.0, 128.0, 64.0, 32.0])
+    first_rows = np.array([96.0, 48.0, 24.0, 12.0])
     errors = [
         friction_error(
             paper_scene, plane, Numerics(columns_min=16384, columns_max=16384, row_growth=1.00001, first_row=first)
