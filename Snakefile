@@ -27,6 +27,7 @@ include: "workflow/rules/scenes.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
+include: "workflow/rules/stability.smk"
 
 
 rule all:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rubfric.finitesteady import MOST_COLUMNS, FiniteSolution, solve_finite
 from rubfric.kinematics import decide
-from rubfric.resolvable import require_resolvable
+from rubfric.resolvable import require_height, require_resolvable
 from rubfric.scene import Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 
@@ -23,16 +23,17 @@ def solve(scene: Scene) -> SmallSolution | FiniteSolution:
     return solve_small(scene, decision)
 
 
-def require_contact(scene: Scene) -> None:
-    """Refuse a scene whose contact is too light for any mesh that it may have.
+def require_solvable(scene: Scene) -> None:
+    """Refuse a scene whose contact is too light for any mesh that it may have, or whose load is too heavy.
 
     Raises
     ------
     InvalidInput
-        With the lightest pressure that is possible.
+        With the pressure that is possible.
     """
     most = scene.numerics.columns_max
     if decide(scene).kinematics == "finite":
+        require_height(scene)
         require_resolvable(scene, min(most, MOST_COLUMNS), "small strain, which kinematics: auto takes here, has more")
     else:
         require_resolvable(scene, most, "raise numerics.columns_max")

@@ -44,6 +44,7 @@ FLOORS = [
     {"campaign", "extremes", "verdict"},
     {"sources"},
     {"jobs", "warm", "cli", "trial"},
+    {"stability"},
 ]
 MOST_LINES = 260
 
