@@ -2,6 +2,7 @@
 # make test      set up and pass the tests
 # make check     formatting, lint, types, workflow lint
 # make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
+# make stability try the matrix of extremes, draw its map; writes its table of the README
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3
@@ -12,7 +13,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures test check bench format clean distclean
+.PHONY: figures test check bench stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -31,6 +32,10 @@ bench: $(VENV)/.ready
 	python tests/benchmark/scenes.py
 	python tests/benchmark/campaign.py
 	python tests/benchmark/transient.py
+
+stability: $(VENV)/.ready
+	snakemake -j$(JOBS) stability
+	python tests/benchmark/stability.py
 
 format: $(VENV)/.ready
 	ruff check --fix .
