@@ -3,6 +3,7 @@
 # make check     formatting, lint, types, workflow lint
 # make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
+# make stability try the matrix of extremes, draw its map; writes its table of the README
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3
@@ -13,7 +14,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures test check bench accuracy format clean distclean
+.PHONY: figures test check bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -36,6 +37,10 @@ bench: $(VENV)/.ready
 accuracy: $(VENV)/.ready
 	snakemake -j$(JOBS) accuracy
 	python tests/benchmark/accuracy.py
+
+stability: $(VENV)/.ready
+	snakemake -j$(JOBS) stability
+	python tests/benchmark/stability.py
 
 format: $(VENV)/.ready
 	ruff check --fix .

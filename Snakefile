@@ -28,6 +28,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/stability.smk"
 
 
 rule all:

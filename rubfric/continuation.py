@@ -24,9 +24,9 @@ _SMALLEST_SHARE = 1e-4
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
 _LIGHT = 0.1
-# Work after which a scene is given up, in applications of the tangent times cells: some twenty seconds. A Newton step
+# Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds. A Newton step
 # costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
-_MOST_WORK, _PER_STEP, _PER_APPLICATION = 4.0e7, 10, 5000
+_MOST_WORK, _PER_STEP, _PER_APPLICATION = 3.0e7, 10, 5000
 
 _SPENT = "a scene has only so much work, and this one has had it: most likely it has no solution under so heavy a load"
 

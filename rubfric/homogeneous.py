@@ -34,6 +34,13 @@ def pressed(material: Material, pressure: float, plane: str) -> tuple[float, flo
     return math.exp(stretch), math.exp(across)
 
 
+def pressing(material: Material, stretch: float, plane: str) -> float:
+    """Return the nominal pressure, MPa, that presses a relaxed block to a stretch along its height."""
+    along = math.log(stretch)
+    across = _thickness(material, along) if plane == "stress" else 0.0
+    return -_stresses(material, along, across)[0] * material.long_term_shear_modulus
+
+
 def stored_energy(material: Material, stretch: float, thickness: float) -> float:
     """Return W of a relaxed block at the stretches that ``pressed`` returns, MPa."""
     volume = stretch * thickness

@@ -1,7 +1,7 @@
-"""The lightest contact that a mesh can resolve: friction of fewer surface nodes is a number, but no prediction.
+"""What a mesh can resolve: not too light a contact, and not a block pressed to next to nothing.
 
-With fewer nodes in contact the three routes to friction may still agree by chance, so that their difference alone
-does not show it.
+Friction of a few surface nodes is a number, but no prediction: the three routes to it may still agree by chance, so
+that their difference alone does not show it.
 """
 
 from __future__ import annotations
@@ -12,10 +12,13 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.errors import InvalidInput, NotConverged
+from rubfric.homogeneous import pressed, pressing
 from rubfric.reference import full_contact_pressure, westergaard_contact_fraction
 from rubfric.scene import Scene
 
 _FEWEST_NODES = 8
+# Share of its height that the load must leave a relaxed block on a flat road: cells on a rough one are pressed further.
+_LEAST_HEIGHT = 0.1
 # Contact that a half-space has at the excitation frequency is at least that of the block, whose finer waves are stiffer
 # still; this margin covers what finite strain and a flat block add.
 _MARGIN = 2.0
@@ -61,6 +64,23 @@ def require_resolvable(scene: Scene, columns: int, way_out: str) -> None:
         f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at least {lightest:.2g} MPa: "
         f"lighter contacts have fewer than {fewest} surface nodes on the finest mesh, of {columns} columns; {way_out}"
     )
+
+
+def require_height(scene: Scene) -> None:
+    """Refuse to solve a scene in finite strain whose load leaves hardly anything of the block.
+
+    Raises
+    ------
+    InvalidInput
+        With the heaviest pressure that is possible.
+    """
+    left = pressed(scene.material, scene.pressure, scene.plane)[0]
+    if left < _LEAST_HEIGHT:
+        heaviest = pressing(scene.material, _LEAST_HEIGHT, scene.plane)
+        raise InvalidInput(
+            f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at most {heaviest:.3g} MPa: it leaves "
+            f"{left:.2%} of the height of the relaxed block, and less than {_LEAST_HEIGHT:.0%} is no rubber any more"
+        )
 
 
 def require_columns(scene: Scene, columns: int, fewest: float) -> None:

@@ -12,7 +12,7 @@ from rubfric.errors import NotConverged
 from rubfric.resolvable import require_resolved
 from rubfric.routes import most_closure
 from rubfric.scene import Scene
-from rubfric.steady import require_contact, solve
+from rubfric.steady import require_solvable, solve
 
 
 def simulate(scene: Scene) -> xr.Dataset:
@@ -37,7 +37,7 @@ def simulate(scene: Scene) -> xr.Dataset:
     0.206
     """
     started = time.perf_counter()
-    require_contact(scene)
+    require_solvable(scene)
     solution = solve(scene)
     require_resolved(scene, solution.contact.touching, solution.iterations)
     energies = evaluate(solution)

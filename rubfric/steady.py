@@ -5,7 +5,7 @@ from __future__ import annotations
 from rubfric.finitesteady import FiniteSolution, solve_finite
 from rubfric.kinematics import decide
 from rubfric.resolution import most_columns
-from rubfric.resolvable import require_resolvable
+from rubfric.resolvable import require_height, require_resolvable
 from rubfric.scene import Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 
@@ -24,14 +24,16 @@ def solve(scene: Scene) -> SmallSolution | FiniteSolution:
     return solve_small(scene, decision)
 
 
-def require_contact(scene: Scene) -> None:
-    """Refuse a scene whose contact is too light for any mesh that it may have.
+def require_solvable(scene: Scene) -> None:
+    """Refuse a scene whose contact is too light for any mesh that it may have, or whose load is too heavy.
 
     Raises
     ------
     InvalidInput
-        With the lightest pressure that is possible.
+        With the pressure that is possible.
     """
     finite = decide(scene).kinematics == "finite"
+    if finite:
+        require_height(scene)
     way_out = "small strain, which kinematics: auto takes here, has more" if finite else "raise numerics.columns_max"
     require_resolvable(scene, most_columns(scene, finite), way_out)

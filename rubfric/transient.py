@@ -12,9 +12,10 @@ import numpy as np
 from rubfric.arrays import Real
 from rubfric.block import Block
 from rubfric.errors import NotConverged
+from rubfric.kinematics import decide
 from rubfric.marching import FRESH, March, wavelength_means
 from rubfric.procedure import PHASES, Procedure
-from rubfric.resolvable import require_columns
+from rubfric.resolvable import require_columns, require_height
 from rubfric.routes import MOST_CLOSURE, ROUND_OFF, disagreement
 from rubfric.saturation import Saturation
 from rubfric.scene import Scene
@@ -119,13 +120,15 @@ def march(
     Raises
     ------
     InvalidInput
-        Where the block has too few columns for so light a contact.
+        Where the block has too few columns for so light a contact, or the load leaves hardly anything of it.
     NotConverged
         With the scene, the step and the residual, where halving a step does not help, or where columns or steps turn
         out too few: hardly a node touches the road, or the routes to friction contradict each other.
     """
     given = procedure or Procedure()
     require_columns(scene, given.columns, _FEWEST_NODES)
+    if decide(scene).kinematics == "finite":
+        require_height(scene)
     marching = March(scene, given)
     if restart is not None and restart.exists():
         marching.restore(restart)

@@ -109,7 +109,7 @@ def confined(case: Case) -> Trial:
 def _answer(case: Case, writing: int) -> None:
     """Try the case under limits and write what became of it."""
     resource.setrlimit(resource.RLIMIT_AS, (_MOST_SPACE * _MIB, _MOST_SPACE * _MIB))
-    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS))
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 1))
     found = attempt(case)
     with os.fdopen(writing, "wb") as stream:
         stream.write(pickle.dumps(found))
@@ -131,5 +131,5 @@ def _ended_by(code: int) -> str:
     if code == -signal.SIGXCPU:
         return f"took more than {MOST_SECONDS} s of processor time"
     if code == -signal.SIGKILL:
-        return f"took more than {MOST_SECONDS} s of processor time or {MOST_WALL} s of wall time"
+        return f"took more than {MOST_WALL} s of wall time, or was killed"
     return f"the process died (exit code {code})"

@@ -47,6 +47,7 @@ FLOORS = [
     {"campaign", "verdict"},
     {"trials", "extremes", "sources"},
     {"jobs", "warm", "cli", "trial"},
+    {"stability"},
 ]
 MOST_LINES = 260
 

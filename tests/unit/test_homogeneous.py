@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rubfric.finitestrain import YY, deform, stress, volumetric_energy, volumetric_stress
-from rubfric.homogeneous import pressed, stored_energy
+from rubfric.homogeneous import pressed, pressing, stored_energy
 from rubfric.material import Material
 
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
@@ -114,3 +114,10 @@ def test_stored_energy_is_that_of_the_free_energy(paper_rubber: Material) -> Non
     expected = volumetric + 0.5 * paper_rubber.long_term_shear_modulus * (trace - 3.0)
     assert stored_energy(paper_rubber, stretch, thickness) == pytest.approx(expected, rel=1e-12)
     assert stored_energy(paper_rubber, 1.0, 1.0) == 0.0
+
+
+@pytest.mark.parametrize("plane", ["stress", "strain"])
+@pytest.mark.parametrize("pressure", [0.1, 5.0, 500.0])
+def test_pressing_undoes_pressed(paper_rubber: Material, plane: str, pressure: float) -> None:
+    stretch, _ = pressed(paper_rubber, pressure, plane)
+    assert pressing(paper_rubber, stretch, plane) == pytest.approx(pressure, rel=1e-9)

@@ -78,7 +78,7 @@ def test_presets_of_the_config_go_from_loose_to_tight() -> None:
 @pytest.mark.parametrize(
     ("key", "value"),
     [
-        ("accuracy", 0.002),
+        ("accuracy", 0.003),
         ("contact_nodes", 99),
         ("finite_contact_nodes", 77),
         ("columns_min", 320),

@@ -1,0 +1,24 @@
+"""Put the outcome of the matrix of stability, which ``snakemake stability`` wrote, into the README."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import tables
+
+from rubfric.stability import markdown, summary
+
+TABLE = Path(__file__).resolve().parents[2] / "results" / "stability" / "stability.csv"
+
+
+def main() -> None:
+    if not TABLE.exists():
+        raise SystemExit(f"{TABLE} is missing: run snakemake -j2 stability first")
+    text = f"{markdown(summary(pd.read_csv(TABLE)))}\n\n{tables.machine()}."
+    tables.publish("stability", text)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,70 @@
+# Numerical stability far beyond the paper: every case of the matrix in a process of its own, some cases a job.
+from rubfric.extremes import cases
+
+STABILITY = f"{RESULTS}/stability"
+EXTREMES = [case.parameters() for case in cases()]
+CASES_PER_JOB = 32
+BATCHES = [str(number) for number in range(-(-len(EXTREMES) // CASES_PER_JOB))]
+
+
+rule stability_batch:
+    input:
+        package_files("rubfric.stability"),
+        script="workflow/scripts/try_extremes.py",
+    output:
+        f"{RESULTS}/stability/batches/{{batch}}.csv",
+    log:
+        f"{RESULTS}/logs/stability/{{batch}}.log",
+    wildcard_constraints:
+        batch=r"\d+",
+    params:
+        cases=lambda wildcards: EXTREMES[int(wildcards.batch) :: len(BATCHES)],
+        version=rubfric.__version__,
+    message:
+        "Stability, batch {wildcards.batch}"
+    run:
+        jobs.run(input.script, log[0], output=output[0], cases=params.cases)
+
+
+rule stability_table:
+    input:
+        package_files("rubfric.stability"),
+        script="workflow/scripts/tabulate_stability.py",
+        batches=[f"{STABILITY}/batches/{batch}.csv" for batch in BATCHES],
+    output:
+        table=f"{RESULTS}/stability/stability.csv",
+        page=f"{RESULTS}/stability/stability.md",
+    log:
+        f"{RESULTS}/logs/stability/table.log",
+    message:
+        "Stability: {output.page}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            table=output.table,
+            page=output.page,
+            batches=list(input.batches),
+        )
+
+
+rule stability_figure:
+    input:
+        package_files("rubfric.figures.stability"),
+        script="workflow/scripts/draw_stability.py",
+        table=rules.stability_table.output.table,
+    output:
+        pdf=f"{RESULTS}/figures/stability.pdf",
+        png=f"{RESULTS}/figures/stability.png",
+    log:
+        f"{RESULTS}/logs/figures/stability.log",
+    message:
+        "Drawing the map of stability"
+    run:
+        jobs.run(input.script, log[0], table=input.table, outputs=list(output))
+
+
+rule stability:
+    input:
+        rules.stability_table.output,
+        rules.stability_figure.output,

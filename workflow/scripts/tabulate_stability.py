@@ -1,0 +1,20 @@
+"""Join the batches of the matrix of stability in one table, and say in words what came out."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from rubfric.atomic import whole
+from rubfric.extremes import cases
+from rubfric.stability import page as described
+from rubfric.tables import write_table
+
+
+def main(table: str, page: str, batches: list[str]) -> None:
+    """Write the CSV file ``table``, in the order of the matrix, and the Markdown file ``page`` from CSV ``batches``."""
+    joined = pd.concat([pd.read_csv(batch) for batch in batches]).set_index("case")
+    joined = joined.loc[[case.name for case in cases()]].reset_index()
+    write_table(joined, table)
+    with whole(page) as part:
+        Path(part).write_text(described(joined), encoding="utf-8")
+    print(joined["outcome"].value_counts().to_string())
