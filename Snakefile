@@ -5,8 +5,9 @@ import sys
 
 from snakemake.utils import min_version, validate
 
+from rubfric.atomic import check_folder, check_place
 from rubfric.campaign import Campaign
-from rubfric.errors import InvalidInput
+from rubfric.errors import InvalidInput, NotWritten
 
 min_version("9.0")
 
@@ -19,6 +20,11 @@ try:
     CAMPAIGN = Campaign.from_config(config)
 except InvalidInput as error:
     sys.exit(f"The config is wrong: {error}.")
+try:
+    check_folder(".snakemake")  # where Snakemake keeps its memory
+    check_place(CAMPAIGN.results)
+except NotWritten as error:
+    sys.exit(f"No results can be made: {error}.")
 validate(config, "workflow/schemas/config.schema.yaml", set_default=False)
 
 
@@ -40,6 +46,7 @@ rule all:
 
 onstart:
     jobs.warm_up()
+    check_folder(RESULTS)
 
 
 onsuccess:

@@ -16,8 +16,8 @@ WORKFLOW = PACKAGE.parent / "workflow"
 
 # Lowest first. A module may import from the floors below its own; those of figures also one another.
 FLOORS = [
-    {"errors", "arrays", "atomic"},
-    {"checks"},
+    {"errors", "arrays"},
+    {"checks", "atomic"},
     {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},

@@ -29,10 +29,18 @@ rule campaign:
         f"{RESULTS}/campaign.nc",
     log:
         f"{RESULTS}/logs/campaign.log",
+    params:
+        digests=[scene.digest for scene in SCENES.values()],
     message:
         "Collecting all scenes in {output}"
     run:
-        jobs.run(input.script, log[0], output=output[0], scenes=list(input.scenes))
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            scenes=list(input.scenes),
+            digests=params.digests,
+        )
 
 
 rule scenes:

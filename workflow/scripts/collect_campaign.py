@@ -4,6 +4,6 @@ from rubfric.collection import collect
 from rubfric.dataset import write
 
 
-def main(output: str, scenes: list[str]) -> None:
-    """Gather the results in the files ``scenes`` into the netCDF file ``output``."""
-    write(collect(scenes), output)
+def main(output: str, scenes: list[str], digests: list[str]) -> None:
+    """Gather the results in the files ``scenes``, of these digests, into the netCDF file ``output``."""
+    write(collect(scenes, digests), output)
