@@ -7,7 +7,8 @@ from snakemake.utils import min_version, validate
 
 from rubfric.atomic import check_folder, check_place
 from rubfric.campaign import Campaign
-from rubfric.errors import InvalidInput, NotWritten
+from rubfric.errors import BrokenResult, InvalidInput, NotWritten
+from rubfric.records import check_records
 
 min_version("9.0")
 
@@ -23,7 +24,8 @@ except InvalidInput as error:
 try:
     check_folder(".snakemake")  # where Snakemake keeps its memory
     check_place(CAMPAIGN.results)
-except NotWritten as error:
+    check_records(".snakemake/metadata")
+except (NotWritten, BrokenResult) as error:
     sys.exit(f"No results can be made: {error}.")
 validate(config, "workflow/schemas/config.schema.yaml", set_default=False)
 
@@ -39,6 +41,8 @@ rule all:
     default_target: True
     input:
         SCENE_FILES,
+        rules.campaign.output,
+        MARCH_FILES,
         TABLES,
         FIGURES,
         rules.march_figure.output,

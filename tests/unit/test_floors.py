@@ -43,7 +43,7 @@ FLOORS = [
     {"figures"},
     {"campaign"},
     {"sources"},
-    {"jobs", "warm", "cli"},
+    {"jobs", "warm", "cli", "records"},
 ]
 MOST_LINES = 260
 

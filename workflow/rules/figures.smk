@@ -75,4 +75,6 @@ rule field_figure:
 
 rule figures:
     input:
+        SCENE_FILES,
+        rules.campaign.output,
         FIGURES,
