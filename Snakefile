@@ -5,8 +5,10 @@ import sys
 
 from snakemake.utils import min_version, validate
 
+from rubfric.atomic import check_folder, check_place
 from rubfric.campaign import Campaign
-from rubfric.errors import InvalidInput
+from rubfric.errors import BrokenResult, InvalidInput, NotWritten
+from rubfric.records import check_records
 
 min_version("9.0")
 
@@ -19,6 +21,12 @@ try:
     CAMPAIGN = Campaign.from_config(config)
 except InvalidInput as error:
     sys.exit(f"The config is wrong: {error}.")
+try:
+    check_folder(".snakemake")  # where Snakemake keeps its memory
+    check_place(CAMPAIGN.results)
+    check_records(".snakemake/metadata")
+except (NotWritten, BrokenResult) as error:
+    sys.exit(f"No results can be made: {error}.")
 validate(config, "workflow/schemas/config.schema.yaml", set_default=False)
 
 
@@ -35,6 +43,8 @@ rule all:
     default_target: True
     input:
         SCENE_FILES,
+        rules.campaign.output,
+        MARCH_FILES,
         TABLES,
         FIGURES,
         rules.march_figure.output,
@@ -42,6 +52,7 @@ rule all:
 
 onstart:
     jobs.warm_up()
+    check_folder(RESULTS)
 
 
 onsuccess:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import zipfile
+import hashlib
+import io
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -13,13 +14,20 @@ from rubfric.atomic import whole
 from rubfric.errors import BrokenResult
 
 _LABEL = "label"
+# Length of the checksum that the file begins with, bytes.
+_CHECKSUM = 32
 
 
 def write(path: Path, label: str, arrays: Mapping[str, Real]) -> None:
-    """Write arrays (an .npz) under a label that says what they belong to; the file appears whole or not at all."""
+    """Write arrays under a label that says what they belong to; the file appears whole or not at all.
+
+    It holds a checksum (SHA-256), then an .npz.
+    """
     given = {_LABEL: np.asarray(label), **arrays}
-    with whole(path) as part, part.open("wb") as file:
-        np.savez(file, allow_pickle=False, **given)
+    content = io.BytesIO()
+    np.savez(content, allow_pickle=False, **given)
+    with whole(path) as part:
+        part.write_bytes(hashlib.sha256(content.getbuffer()).digest() + content.getbuffer())
 
 
 def read(path: Path, label: str) -> dict[str, Real]:
@@ -28,13 +36,17 @@ def read(path: Path, label: str) -> dict[str, Real]:
     Raises
     ------
     BrokenResult
-        Where the file cannot be read, or has another label.
+        Where the file cannot be read, is not what was written, or has another label.
     """
+    unusable = f"{path} cannot be read as what a march left; delete it to begin afresh"
     try:
-        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-    except (OSError, EOFError, ValueError, TypeError, zipfile.BadZipFile) as error:
-        raise BrokenResult(f"{path} cannot be read as what a march left; delete it to begin afresh") from error
+        stored = path.read_bytes()
+    except OSError as error:
+        raise BrokenResult(unusable) from error
+    if hashlib.sha256(stored[_CHECKSUM:]).digest() != stored[:_CHECKSUM]:
+        raise BrokenResult(unusable)
+    with np.load(io.BytesIO(stored[_CHECKSUM:]), allow_pickle=False) as file:
+        arrays = {name: file[name] for name in file.files}
     found = str(arrays.pop(_LABEL, ""))
     if found != label:
         raise BrokenResult(f"{path} belongs to other work: it has the label {found!r}, not {label!r}")

@@ -22,6 +22,8 @@ from rubfric.solution import SteadySolution
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
+# What the error about a result of other parameters says.
+OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 
 # Read once: looking versions up takes as long as a scene.
 _SOFTWARE = ", ".join(
@@ -186,6 +188,11 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
     The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
     name begins with a dot.
+
+    Raises
+    ------
+    NotWritten
+        Where the disk is full or the place is not writable; the message says what to do.
     """
     # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.
     encoding = {
@@ -194,22 +201,38 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
         for name, variable in result.variables.items()
     }
     with whole(path) as part:
-        result.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        try:
+            result.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        except (OSError, RuntimeError):
+            part.write_bytes(bytes(2 * result.nbytes))  # netCDF does not say what the matter is; the system does
+            raise
 
 
-def read(path: str | os.PathLike[str]) -> xr.Dataset:
+def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
     """Read a result whole into memory.
+
+    Parameters
+    ----------
+    digest : str, optional
+        ``Scene.digest`` of the scene whose result it has to be.
 
     Raises
     ------
     BrokenResult
-        For a file that is missing, damaged, or no result of rubfric.
+        For a file that is missing, damaged, no result of rubfric, or that of another scene.
     """
-    try:
-        with xr.open_dataset(path, engine="netcdf4") as stored:
-            result = stored.load()
-    except (OSError, ValueError, RuntimeError, AttributeError) as error:
-        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error
+    result = load(path)
     if "scene_digest" not in result.attrs:
         raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
+    if digest not in (None, result.attrs["scene_digest"]):
+        raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; delete it and run again")
     return result
+
+
+def load(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Read any netCDF file whole into memory; BrokenResult where that cannot be."""
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as stored:
+            return stored.load()
+    except (OSError, ValueError, RuntimeError, AttributeError, KeyError) as error:
+        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error

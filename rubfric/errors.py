@@ -44,3 +44,7 @@ class NotConverged(RubfricError, RuntimeError):
 
 class BrokenResult(RubfricError, OSError):
     """A result file that cannot be read or lacks what every result holds."""
+
+
+class NotWritten(RubfricError, OSError):
+    """A file that the system does not let be written; the message says why and what to do."""

@@ -23,6 +23,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from rubfric.atomic import why_not
 from rubfric.errors import RubfricError
 
 # One thread each: the systems are small, and jobs run side by side.
@@ -65,7 +66,10 @@ def run(script: str, log: str, **arguments: Any) -> None:
     try:
         failure = worker.recv()
     except (EOFError, OSError):
-        failure = "the job's process died before it could say why; most likely it was killed"
+        failure = (
+            "the job's process died before it could say why; most likely it was killed, perhaps for lack of memory: "
+            "run again, with fewer jobs at a time (-j1) if it happens again"
+        )
     if failure:
         worker.close()
         raise JobFailed(f"{failure} (log: {log})")
@@ -127,17 +131,27 @@ def _serve(line: Connection) -> None:
 
 def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
     """Do one job with all output in its log; return the reason why it failed, or None."""
+    try:
+        _redirect(log)
+        main: Callable[..., None] = runpy.run_path(script)["main"]
+        main(**arguments)
+        sys.stdout.flush()
+    except Exception as error:
+        with contextlib.suppress(OSError):  # a disk that is full has no room for this
+            traceback.print_exc()
+        place = getattr(error, "filename", None) or log
+        known = why_not(place, error) if isinstance(error, OSError) else error
+        return f"{type(known).__name__}: {known}"
+    finally:
+        with contextlib.suppress(OSError):
+            sys.stdout.flush()
+            sys.stderr.flush()
+    return None
+
+
+def _redirect(log: str) -> None:
+    """Send all that this process prints to a file."""
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w", encoding="utf-8") as stream:
         for descriptor in (1, 2):
             os.dup2(stream.fileno(), descriptor)
-    try:
-        main: Callable[..., None] = runpy.run_path(script)["main"]
-        main(**arguments)
-    except Exception as error:
-        traceback.print_exc()
-        return f"{type(error).__name__}: {error}"
-    finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
-    return None

@@ -1,4 +1,5 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
+import hashlib
 from dataclasses import asdict
 
 import rubfric
@@ -31,3 +32,8 @@ def scene_file(name):
 def march_file(name):
     """Return where the march of a scene belongs."""
     return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def fingerprint(words):
+    """Return a short name for a list of words."""
+    return hashlib.sha256(" ".join(words).encode()).hexdigest()[:16]

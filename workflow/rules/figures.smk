@@ -57,6 +57,8 @@ rule field_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(FIELD_FIGURES),
+    params:
+        digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -67,9 +69,12 @@ rule field_figure:
             results=list(input.results),
             choice={},
             outputs=list(output),
+            digests=params.digests,
         )
 
 
 rule figures:
     input:
+        SCENE_FILES,
+        rules.campaign.output,
         FIGURES,

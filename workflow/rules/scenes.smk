@@ -1,6 +1,7 @@
 # One job per scene. All that a scene depends on stands in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
 SCENE_FILES = [scene_file(name) for name in SCENES]
+DIGESTS = [scene.digest for scene in SCENES.values()]
 
 
 rule scene:
@@ -27,12 +28,23 @@ rule campaign:
         scenes=SCENE_FILES,
     output:
         f"{RESULTS}/campaign.nc",
+        # Other scenes, another name: the collection is checked anew even where Snakemake has lost its memory.
+        mark=f"{RESULTS}/collected/{fingerprint(DIGESTS)}",
     log:
         f"{RESULTS}/logs/campaign.log",
+    params:
+        digests=DIGESTS,
     message:
         "Collecting all scenes in {output}"
     run:
-        jobs.run(input.script, log[0], output=output[0], scenes=list(input.scenes))
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            scenes=list(input.scenes),
+            digests=params.digests,
+            mark=output.mark,
+        )
 
 
 rule scenes:

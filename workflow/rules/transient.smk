@@ -43,6 +43,8 @@ rule march_figure:
         png=f"{RESULTS}/figures/fig5.png",
     log:
         f"{RESULTS}/logs/figures/fig5.log",
+    params:
+        digests=[scene.digest for scene in MARCHES.values()],
     message:
         "Drawing fig5"
     run:
@@ -53,4 +55,5 @@ rule march_figure:
             results=list(input.results),
             choice={},
             outputs=list(output),
+            digests=params.digests,
         )

@@ -3,18 +3,25 @@
 from importlib import import_module
 from typing import Any
 
-import xarray as xr
-
-from rubfric.dataset import read
+from rubfric import collection, dataset
 from rubfric.figures.style import save
 
 
-def main(figure: str, results: str | list[str], choice: dict[str, Any], outputs: list[str]) -> None:
-    """Draw ``rubfric.figures.<figure>`` with the arguments ``choice`` and save it under every path of ``outputs``."""
+def main(
+    figure: str,
+    results: str | list[str],
+    choice: dict[str, Any],
+    outputs: list[str],
+    digests: list[str] | None = None,
+) -> None:
+    """Draw ``rubfric.figures.<figure>`` with the arguments ``choice`` and save it under every path of ``outputs``.
+
+    It is drawn from the campaign's file or from several results, whose digests are given then.
+    """
     draw = import_module(f"rubfric.figures.{figure}").draw
     if isinstance(results, str):
-        with xr.open_dataset(results) as campaign:
-            drawn = draw(campaign.load(), **choice)
+        drawn = draw(collection.read(results), **choice)
     else:
-        drawn = draw([read(path) for path in results], **choice)
+        read = [dataset.read(path, digest) for path, digest in zip(results, digests or [], strict=True)]
+        drawn = draw(read, **choice)
     save(drawn, *outputs)
