@@ -108,9 +108,7 @@ def test_change_is_the_derivative_of_the_stresses_and_of_the_excess_of_volume(
 
 @PLANES
 @DILATATIONS
-def test_elastic_forces_are_the_derivative_of_the_energy(
-    plane: str, dilatation: str, rng: np.random.Generator
-) -> None:
+def test_elastic_forces_are_the_derivative_of_the_energy(plane: str, dilatation: str, rng: np.random.Generator) -> None:
     finite = coarse(plane, ELASTIC, dilatation=dilatation)
     fields, step, share = deformed(finite, rng), random_step(finite, rng), 1e-5
 
