@@ -33,9 +33,9 @@ class Load:
     force : ndarray of complex, shape (2, rows + 1, n)
         N per mm of thickness.
     thickness : ndarray of complex, shape (1 or 0, points, rows, n)
-        Logarithm of the thickness stretch that the load causes in a held block.
+        Logarithm of the thickness stretch that the load causes in a block whose nodes are held.
     volume : ndarray of complex, shape (points or 1, rows, n)
-        Volume ratio by which volume and deformation shall differ.
+        Volume ratio that it causes there.
     """
 
     force: Complex
@@ -68,31 +68,29 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        slope, weights = _slope(finite), finite.weights
-        weighed = slope.conj() * weights
+        slope = _slope(finite)
+        weighed = slope.conj() * finite.weights
         volume = stiffness.points.volume.mean(axis=-1)[..., None]
         bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
         moduli = _moduli(finite, stiffness)
-        # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
-        self._dilatation = _caused(volume, slope)
-        if not finite.block.pointwise:
-            self._dilatation = self._dilatation.mean(axis=1, keepdims=True)
-            weights = weights.sum(axis=0)
+        pressed, swollen = volume, volume
+        self._stiffening: Complex | float = 1.0
         if finite.unknowns == 5:
-            moduli += volume[:, None] * volume * bulk
+            # At constant volume every point finds its thickness alone; volume then follows from both.
             self._yield = 1.0 / moduli[4, 4]
-            self._swelling = volume[4] * bulk
-            self._volume_thickness = volume[4]
-            # The thickness that displacements cause, and the forces of a thickness that they do not.
-            give, take = moduli[:4, 4], moduli[4, :4] * self._yield
-            self._thickness, self._thickness_force = _caused(take, slope), _caused(give * self._yield, weighed)
-            self._volume_force = _caused(volume * bulk, weighed)
-            moduli = moduli[:4, :4] - give[:, None] * take
-        else:
-            self._volume_force = self._dilatation.conj() * (bulk * weights)
-        cells = _cells(moduli, slope, weighed)
-        if finite.unknowns == 4:
-            cells += np.sum(self._dilatation * self._volume_force[:, None], axis=2)
+            give, take = moduli[:4, 4] * self._yield, moduli[4, :4] * self._yield
+            self._thickness, self._thickness_force = _caused(take, slope), _caused(give, weighed)
+            self._swelling, self._volume_thickness = volume[4] * bulk * self._yield, volume[4] * self._yield
+            self._stiffening = 1.0 + bulk * self._felt((volume[4] * self._volume_thickness)[None])[0]
+            pressed, swollen = volume[:4] - give * volume[4], volume[:4] - take * volume[4]
+            moduli = moduli[:4, :4] - give[:, None] * moduli[4, :4]
+        # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
+        self._dilatation = self._felt(_caused(swollen, slope)) / self._stiffening
+        self._volume_force = _caused(pressed, weighed)
+        if not finite.block.pointwise:
+            self._volume_force = self._volume_force.sum(axis=1, keepdims=True)
+        self._volume_force = self._volume_force * bulk
+        cells = _cells(moduli, slope, weighed) + (self._dilatation * self._volume_force[:, None]).sum(axis=2)
         self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
@@ -105,11 +103,12 @@ class Circulant:
         force = fft.rfft(forces, axis=-1)
         thickness = fft.rfft(thickness_stress, axis=-1)
         volume = fft.rfft(volume_excess, axis=-1)
+        if len(thickness):
+            volume = (volume + self._felt(self._volume_thickness * thickness)[0]) / self._stiffening
         pushed = (self._volume_force * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
-            thickness[0] -= self._swelling * volume
             pushed += (self._thickness_force * thickness[0]).sum(axis=1)
-            thickness *= self._yield
+            thickness = self._yield * thickness - self._swelling * volume
         force[:, :-1] -= pushed[:2]
         force[:, 1:] -= pushed[2:]
         return Load(force, thickness, volume)
@@ -130,13 +129,16 @@ class Circulant:
         if not self._finite.past.anchored:
             spectrum[0, :, 0] -= spectrum[0, 0, 0]
         corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
-        volume = load.volume + (self._dilatation * corners).sum(axis=0)
-        thickness = load.thickness
+        dilatation = (self._dilatation * corners).sum(axis=0)
+        volume, thickness = load.volume + dilatation, load.thickness
         if len(thickness):
-            thickness = thickness - (self._thickness * corners).sum(axis=0)
-            volume += self._volume_thickness * thickness[0]
+            thickness = thickness - (self._thickness * corners).sum(axis=0) - self._swelling * dilatation
         columns = self._finite.block.columns
         return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
+
+    def _felt(self, points: Complex) -> Complex:
+        """Return what the volume of a cell feels of its points, which stand along the second axis."""
+        return points if self._finite.block.pointwise else points.mean(axis=1, keepdims=True)
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""

@@ -230,7 +230,7 @@ class FiniteBlock:
         return power
 
     def dilatation(self, volume: Real) -> Real:
-        """Return a volume ratio at the points as the pressure sees it: its mean over each cell in plane strain."""
+        """Return a volume ratio at the points as the pressure sees it: there, or as its mean over each cell."""
         return volume if self.block.pointwise else volume.mean(axis=0, keepdims=True)
 
     def convolve(self, kernel: Complex, field: Real) -> Real:

@@ -4,7 +4,7 @@ The knobs are turned one at a time, from the mesh of fineness 1 without further 
 
 - ``mesh``: nodes in contact, columns and rows together; ``surface`` the first two alone, ``rows`` and ``first_row``
   the grading towards the road;
-- ``element``: in plane strain, dilatation point by point, or by its mean over each cell;
+- ``element``: dilatation point by point, or by its mean over each cell;
 - ``kinematics``: small strain, finite strain, or what the scene needs;
 - ``folding``: the share of the accuracy that leaving out Prony branches may use;
 - ``tolerance`` of the solver in finite strain;
@@ -83,7 +83,7 @@ def rungs(scene: Scene, presets: Mapping[str, Numerics]) -> Iterator[Rung]:
         yield rung("rows", f"{value:g}", row_growth=value)
     for value in _FIRST_ROWS:
         yield rung("first_row", f"{value:g}", first_row=value)
-    for word in ("pointwise", "mean") if scene.plane == "strain" else ("pointwise",):
+    for word in ("pointwise", "mean"):
         yield rung("element", word, dilatation=word)
     for word in ("small", "auto", "finite"):
         yield rung("kinematics", word, kinematics=word)

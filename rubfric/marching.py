@@ -78,7 +78,13 @@ class March:
         self.kinematics = decide(scene).kinematics
         numerics, road = scene.numerics, scene.road
         self.block = Block.graded(
-            road.wavelength, scene.height, procedure.columns, scene.plane, numerics.row_growth, numerics.first_row
+            road.wavelength,
+            scene.height,
+            procedure.columns,
+            scene.plane,
+            numerics.row_growth,
+            numerics.first_row,
+            numerics.dilatation,
         )
         self.position = 0
         self._steps: Steps = procedure.steps(scene)

@@ -43,7 +43,7 @@ class Numerics:
     first_row : float
         Height of the row at the road over the width of a column, 0.01 to 100.
     dilatation : {"auto", "pointwise", "mean"}
-        How the cells integrate dilatation; see ``rubfric.block.Block``. Plane stress takes no ``mean``.
+        How the cells integrate dilatation; see ``rubfric.block.Block``.
     folding : float
         Share of the accuracy that leaving out or gathering Prony branches may use, 0 to 1; 0 keeps them all.
     tolerance : float
@@ -133,10 +133,6 @@ class Scene:
         put(self, "aspect", checks.positive("aspect", self.aspect))
         checks.one_of("plane", self.plane, PLANES)
         checks.one_of("kinematics", self.kinematics, KINEMATICS)
-        if self.plane == "stress" and self.numerics.dilatation == "mean":
-            raise InvalidInput(
-                "numerics.dilatation is mean, but must be auto or pointwise in plane stress, where nothing locks"
-            )
         flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
         if self.aspect < flattest:
             raise InvalidInput(

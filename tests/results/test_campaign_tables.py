@@ -120,6 +120,13 @@ def test_friction_from_energy_is_that_from_contact(every_scene: pd.DataFrame) ->
         np.testing.assert_allclose(every_scene[route], every_scene["friction_coefficient"], rtol=0.01)
 
 
+def test_estimated_error_is_within_the_accuracy(paper: Project, every_scene: pd.DataFrame) -> None:
+    relative = every_scene["friction_coefficient_error"] / every_scene["friction_coefficient"]
+    assert relative.min() > 0.0
+    assert relative.max() <= paper.campaign.numerics.accuracy
+    assert every_scene["meshes"].between(2, 10).all()
+
+
 def test_friction_is_positive_and_below_the_steepest_slope(paper: Project, scales: dict[int, pd.DataFrame]) -> None:
     for scale, table in scales.items():
         assert table["friction_coefficient"].min() > 0.0
@@ -185,7 +192,7 @@ def test_friction_is_as_known(scales: dict[int, pd.DataFrame], point: tuple[floa
 def test_command_line_gives_the_number_of_the_table(paper: Project, scales: dict[int, pd.DataFrame]) -> None:
     command = [sys.executable, "-m", "rubfric.cli", "simulate", "--scale", "4", "--velocity", "100", "--pressure", "5"]
     done = subprocess.run(command, cwd=paper.root, env=paper.environment, capture_output=True, text=True, check=True)
-    printed = re.search(r"^friction coefficient +(\S+)$", done.stdout, re.MULTILINE)
+    printed = re.search(r"^friction coefficient +(\S+) \+- \S+$", done.stdout, re.MULTILINE)
     rows = scales[4].set_index(["velocity_mm_per_s", "pressure_MPa", "aspect"])
     assert printed
     assert float(printed[1]) == pytest.approx(rows.loc[(100.0, 5.0, 0.75), "friction_coefficient"], rel=1e-4)

@@ -14,6 +14,7 @@ from rubfric.smallstrain import respond
 
 Real = NDArray[np.float64]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+DILATATIONS = pytest.mark.parametrize("dilatation", ["pointwise", "mean"])
 RUBBERS = pytest.mark.parametrize("rubber", [RUBBER, PROPORTIONAL, ELASTIC], ids=["elastic bulk", "both", "elastic"])
 
 
@@ -28,12 +29,13 @@ def response(finite: FiniteBlock, fields: Fields, step: Fields) -> tuple[Real, R
 
 
 @PLANES
+@DILATATIONS
 @RUBBERS
 @pytest.mark.parametrize("columns", [16, 18])
 def test_step_of_a_pressed_and_sheared_block_is_found_exactly(
-    plane: str, rubber: Material, columns: int, rng: np.random.Generator
+    plane: str, dilatation: str, rubber: Material, columns: int, rng: np.random.Generator
 ) -> None:
-    finite = coarse(plane, rubber, columns)
+    finite = coarse(plane, rubber, columns, dilatation=dilatation)
     fields, step = uniform(finite, 0.6, 0.3, 1.2), random_step(finite, rng)
     circulant = averaged(finite, fields)
     found = circulant.solve(circulant.load(*response(finite, fields, step)), np.zeros((2, columns)))
@@ -58,9 +60,12 @@ def test_pressure_of_the_road_turns_with_the_surface(plane: str, rubber: Materia
 
 
 @PLANES
+@DILATATIONS
 @RUBBERS
-def test_surface_is_that_of_the_solution(plane: str, rubber: Material, rng: np.random.Generator) -> None:
-    finite = coarse(plane, rubber)
+def test_surface_is_that_of_the_solution(
+    plane: str, dilatation: str, rubber: Material, rng: np.random.Generator
+) -> None:
+    finite = coarse(plane, rubber, dilatation=dilatation)
     fields = uniform(finite, 0.6, 0.3, 1.2).moved(random_step(finite, rng, 0.1))
     circulant = averaged(finite, fields)
     load = circulant.load(*response(finite, fields, random_step(finite, rng)))

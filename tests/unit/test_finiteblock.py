@@ -15,6 +15,7 @@ from rubfric.material import Material
 
 Real = NDArray[np.float64]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+DILATATIONS = pytest.mark.parametrize("dilatation", ["pointwise", "mean"])
 RUBBERS = pytest.mark.parametrize("rubber", [RUBBER, PROPORTIONAL, ELASTIC], ids=["elastic bulk", "both", "elastic"])
 
 
@@ -75,9 +76,10 @@ def test_rigid_motion_strains_nothing(plane: str, rubber: Material) -> None:
 
 
 @PLANES
+@DILATATIONS
 @RUBBERS
-def test_pressed_block_is_in_balance_with_its_load(plane: str, rubber: Material) -> None:
-    finite, pressure = coarse(plane, rubber), 2.0
+def test_pressed_block_is_in_balance_with_its_load(plane: str, dilatation: str, rubber: Material) -> None:
+    finite, pressure = coarse(plane, rubber, dilatation=dilatation), 2.0
     state = finite.stressed(flat(finite, pressure))
     forces = finite.forces(state.stress[:4])
     carried = pressure * finite.block.column_width
@@ -89,11 +91,12 @@ def test_pressed_block_is_in_balance_with_its_load(plane: str, rubber: Material)
 
 
 @PLANES
+@DILATATIONS
 @RUBBERS
 def test_change_is_the_derivative_of_the_stresses_and_of_the_excess_of_volume(
-    plane: str, rubber: Material, rng: np.random.Generator
+    plane: str, dilatation: str, rubber: Material, rng: np.random.Generator
 ) -> None:
-    finite = coarse(plane, rubber)
+    finite = coarse(plane, rubber, dilatation=dilatation)
     fields, step, share = deformed(finite, rng), random_step(finite, rng), 1e-5
     change, excess = finite.change(finite.stiffness(fields, finite.stressed(fields)), step)
     ahead, behind = (finite.stressed(fields.moved(step, sign * share)) for sign in (1.0, -1.0))
@@ -104,8 +107,9 @@ def test_change_is_the_derivative_of_the_stresses_and_of_the_excess_of_volume(
 
 
 @PLANES
-def test_elastic_forces_are_the_derivative_of_the_energy(plane: str, rng: np.random.Generator) -> None:
-    finite = coarse(plane, ELASTIC)
+@DILATATIONS
+def test_elastic_forces_are_the_derivative_of_the_energy(plane: str, dilatation: str, rng: np.random.Generator) -> None:
+    finite = coarse(plane, ELASTIC, dilatation=dilatation)
     fields, step, share = deformed(finite, rng), random_step(finite, rng), 1e-5
 
     # The derivative of the energy in which the volume follows the deformation.
@@ -183,12 +187,23 @@ def test_small_shear_wave_sees_the_complex_shear_modulus(plane: str) -> None:
         )
 
 
-@PLANES
-def test_dilatation_acts_by_its_mean_over_cells_in_plane_strain(plane: str, rng: np.random.Generator) -> None:
-    finite = coarse(plane)
+@pytest.mark.parametrize(
+    ("plane", "dilatation", "pointwise"),
+    [
+        ("stress", "auto", True),
+        ("strain", "auto", False),
+        ("stress", "mean", False),
+        ("strain", "pointwise", True),
+    ],
+)
+def test_dilatation_acts_point_by_point_or_by_its_mean_over_cells(
+    plane: str, dilatation: str, pointwise: bool, rng: np.random.Generator
+) -> None:
+    finite = coarse(plane, dilatation=dilatation)
     volume = rng.random((finite.points, finite.block.rows, finite.block.columns))
     acting = finite.dilatation(volume)
-    if plane == "stress":
+    assert finite.at_rest().volume.shape == acting.shape
+    if pointwise:
         np.testing.assert_array_equal(acting, volume)
     else:
         np.testing.assert_allclose(acting, volume.mean(axis=0, keepdims=True), rtol=1e-15)
@@ -226,9 +241,12 @@ def test_uniform_block_takes_no_power(plane: str, rubber: Material) -> None:
 
 
 @PLANES
+@DILATATIONS
 @RUBBERS
-def test_power_inside_is_that_of_the_nodal_forces(plane: str, rubber: Material, rng: np.random.Generator) -> None:
-    finite = coarse(plane, rubber)
+def test_power_inside_is_that_of_the_nodal_forces(
+    plane: str, dilatation: str, rubber: Material, rng: np.random.Generator
+) -> None:
+    finite = coarse(plane, rubber, dilatation=dilatation)
     fields = deformed(finite, rng)
     state = finite.stressed(fields)
     rate = 1j * finite.frequencies.astype(complex)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,19 @@ def soft_scene(paper_scene: SceneMaker) -> SceneMaker:
         return paper_scene(velocity, 0.5, kinematics=kinematics, plane=plane, material=material, numerics=coarse)
 
     return build
+
+
+@KINDS
+@PLANES
+@pytest.mark.parametrize("dilatation", ["auto", "pointwise", "mean"])
+def test_march_integrates_dilatation_as_asked_for(
+    soft_scene: SceneMaker, kinematics: str, plane: str, dilatation: str
+) -> None:
+    scene = soft_scene(kinematics, plane)
+    march = March(replace(scene, numerics=replace(scene.numerics, dilatation=dilatation)), QUICK)
+    assert march.block.dilatation == dilatation
+    march.step()
+    assert march.position == 1
 
 
 def marched(scene: Scene, procedure: Procedure = QUICK) -> March:

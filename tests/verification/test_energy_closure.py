@@ -14,6 +14,7 @@ from rubfric.steady import solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+DILATATIONS = pytest.mark.parametrize("dilatation", ["pointwise", "mean"])
 SCALES = pytest.mark.parametrize("scale", [1, 4])
 WORST = 5e-3
 
@@ -54,8 +55,31 @@ def test_routes_agree_for_relaxing_bulk_and_for_other_aspects(
 
 
 @PLANES
-def test_routes_of_a_filled_road_agree_to_round_off(paper_scene: SceneMaker, plane: str) -> None:
-    assert evaluate(solve(paper_scene(10.0, 5.0, plane=plane))).closure < 1e-11
+@DILATATIONS
+def test_routes_of_a_filled_road_agree_to_round_off(paper_scene: SceneMaker, plane: str, dilatation: str) -> None:
+    scene = paper_scene(10.0, 5.0, plane=plane, numerics=Numerics(dilatation=dilatation))
+    assert evaluate(solve(scene)).closure < 1e-11
+
+
+@PLANES
+@DILATATIONS
+@pytest.mark.parametrize("pressure", [0.2, 5.0])
+def test_routes_agree_however_dilatation_is_integrated(
+    paper_scene: SceneMaker, plane: str, dilatation: str, pressure: float
+) -> None:
+    scene = paper_scene(1000.0, pressure, plane=plane, numerics=Numerics(dilatation=dilatation))
+    assert evaluate(solve(scene)).closure < WORST
+
+
+@PLANES
+@DILATATIONS
+@pytest.mark.parametrize(("velocity", "pressure", "most"), [(1000.0, 2.0, 0.01), (10.0, 5.0, 1e-5)])
+def test_routes_of_finite_strain_agree_however_dilatation_is_integrated(
+    paper_scene: SceneMaker, plane: str, dilatation: str, velocity: float, pressure: float, most: float
+) -> None:
+    numerics = Numerics(dilatation=dilatation, refinements=0)
+    scene = paper_scene(velocity, pressure, plane=plane, numerics=numerics, kinematics="finite")
+    assert evaluate(solve(scene)).closure < most
 
 
 @PLANES

@@ -18,18 +18,24 @@ from rubfric.steady import solve
 SceneMaker = Callable[..., Scene]
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config" / "config.yaml")
 HEAVY = 10.0
-# One mesh, the first: the way to the solution is what is tried here.
-COARSE = Numerics(accuracy=0.5, finite_contact_nodes=4, columns_min=8, finite_columns_min=64, row_growth=1.5)
+# A coarse mesh from a cold start, and one as coarse from there: the way to the solution is what is tried here.
+COARSE = Numerics(
+    accuracy=0.5, finite_contact_nodes=4, columns_min=8, finite_columns_min=64, row_growth=1.5, refinements=0
+)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a scene: friction by two routes, largest force on an inner node over that of the contact."""
+    """What became of a scene.
+
+    Friction by two routes, largest force on an inner node over that of the contact, and whether the first mesh was
+    solved at once.
+    """
 
     pressure: float
     friction: tuple[float, float]
     imbalance: float
-    history: tuple[str, ...]
+    at_once: bool
 
 
 def slide(scene: Scene) -> Outcome:
@@ -40,7 +46,8 @@ def slide(scene: Scene) -> Outcome:
     largest = solution.contact.pressure.max() * solution.block.column_width
     friction = solution.friction
     imbalance = float(np.abs(inner).max() / largest)
-    return Outcome(scene.pressure, (friction.stress_power, friction.contact), imbalance, solution.history)
+    at_once = "at once: converged" in solution.history[0]
+    return Outcome(scene.pressure, (friction.stress_power, friction.contact), imbalance, at_once)
 
 
 @pytest.fixture(scope="module", params=["stress", "strain"])
@@ -76,10 +83,10 @@ def test_forces_are_in_balance(outcomes: dict[int, list[Outcome]], scale: int) -
 def test_scenes_of_the_paper_are_solved_at_once(outcomes: dict[int, list[Outcome]]) -> None:
     # All 224 in plane stress, and all but one in plane strain.
     paper = [outcome for scale in outcomes.values() for outcome in scale if outcome.pressure < HEAVY]
-    assert sum(len(outcome.history) == 1 for outcome in paper) >= 0.98 * len(paper)
+    assert sum(outcome.at_once for outcome in paper) >= 0.98 * len(paper)
 
 
 def test_heavy_loads_are_mostly_solved_at_once(outcomes: dict[int, list[Outcome]]) -> None:
     # 23 of 28 in plane stress, all in plane strain; the others along a growing road.
     heavy = [outcome for scale in outcomes.values() for outcome in scale if outcome.pressure == HEAVY]
-    assert sum(len(outcome.history) == 1 for outcome in heavy) >= 0.6 * len(heavy)
+    assert sum(outcome.at_once for outcome in heavy) >= 0.6 * len(heavy)

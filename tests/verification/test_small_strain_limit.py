@@ -16,7 +16,7 @@ from rubfric.steady import solve
 
 SceneMaker = Callable[..., Scene]
 
-SAME_MESH = Numerics(contact_nodes=16, finite_contact_nodes=16, columns_min=128, finite_columns_min=128, refinements=0)
+SAME_MESH = Numerics(contact_nodes=16, finite_contact_nodes=16, columns_min=256, finite_columns_min=256, refinements=0)
 
 
 @pytest.fixture(scope="module")
