@@ -45,6 +45,15 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
     return found
 
 
+def faint(friction: float, resolution: float) -> list[str]:
+    """Return what to know of friction that the solver cannot tell from zero, where there is any; both dimensionless."""
+    if not 0.0 < friction < resolution:
+        return []
+    return [
+        f"Friction is below {resolution:.1g}, which the solver cannot tell from zero: only its smallness is certain."
+    ]
+
+
 def _small_strain(solution: SteadySolution) -> list[str]:
     """Return what small strain does to a scene that asked for it; nothing where it is accurate enough."""
     scene, correction = solution.scene, solution.decision.correction

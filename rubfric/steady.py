@@ -31,9 +31,17 @@ def require_solvable(scene: Scene) -> None:
     InvalidInput
         With the pressure that is possible.
     """
-    most = scene.numerics.columns_max
-    if decide(scene).kinematics == "finite":
+    finite, most = decide(scene).kinematics == "finite", scene.numerics.columns_max
+    if finite:
         require_height(scene)
-        require_resolvable(scene, min(most, MOST_COLUMNS), "small strain, which kinematics: auto takes here, has more")
-    else:
-        require_resolvable(scene, most, "raise numerics.columns_max")
+    require_resolvable(scene, min(most, MOST_COLUMNS) if finite else most, finer_mesh(finite))
+
+
+def finer_mesh(finite: bool) -> str:
+    """Return how a scene can have a finer mesh than it has had, in words."""
+    if finite:
+        return (
+            f"finite strain has at most {MOST_COLUMNS} columns, small strain (kinematics: small) up to "
+            "numerics.columns_max"
+        )
+    return "numerics.columns_max allows for more"
