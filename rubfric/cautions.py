@@ -11,7 +11,7 @@ from rubfric.uncertainty import friction_error
 _SPEED_LIMIT = 0.3
 # A stretch of the surface along the road of less than this is a fold in the making, which the mesh cannot follow.
 _FOLD_LIMIT = 0.1
-# The aim for the difference between the three friction coefficients.
+# The aim for the difference between the three friction coefficients, where no less accuracy was asked for.
 _CLOSURE_LIMIT = 0.01
 
 
@@ -35,7 +35,7 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
         found += _small_strain(solution)
     elif solution.surface_stretch.min() < _FOLD_LIMIT:
         found.append("The surface is about to fold: finer meshes will differ.")
-    if closure > _CLOSURE_LIMIT:
+    if closure > max(_CLOSURE_LIMIT, scene.numerics.accuracy):
         found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
     found += _inaccurate(solution)
     if not solution.resolved:
@@ -55,6 +55,15 @@ def _inaccurate(solution: SteadySolution) -> list[str]:
     return [
         f"The accuracy asked for, {solution.scene.numerics.accuracy:.2%}, is not met: the estimated error is "
         f"{error / friction:.2%} after {len(solution.meshes)} meshes; raise numerics.refinements or columns_max."
+    ]
+
+
+def faint(friction: float, resolution: float) -> list[str]:
+    """Return what to know of friction that the solver cannot tell from zero, where there is any; both dimensionless."""
+    if not 0.0 < friction < resolution:
+        return []
+    return [
+        f"Friction is below {resolution:.1g}, which the solver cannot tell from zero: only its smallness is certain."
     ]
 
 

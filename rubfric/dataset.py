@@ -14,7 +14,7 @@ import xarray as xr
 import rubfric
 from rubfric.arrays import Real
 from rubfric.atomic import whole
-from rubfric.cautions import cautions
+from rubfric.cautions import cautions, faint
 from rubfric.errors import BrokenResult
 from rubfric.routes import Energies
 from rubfric.scalars import SCALARS, attributes, scalars
@@ -174,7 +174,9 @@ def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "rubber": scene.material.name,
         "plane": scene.plane,
         "software": _SOFTWARE,
-        "warnings": "\n".join(cautions(solution, energies.closure)),
+        "warnings": "\n".join(
+            [*cautions(solution, energies.closure), *faint(energies.stress_power, energies.resolution)]
+        ),
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
     attributes |= {name: getattr(scene, name) for name in units}

@@ -14,7 +14,7 @@ _KNOBS = {
     "surface": "Columns and nodes in contact alone, by the same fineness; the rows stay.",
     "rows": "Growth of the rows away from the road alone.",
     "first_row": "Height of the row at the road, over the width of a column.",
-    "element": "Dilatation point by point (the default in plane stress) or by its mean over each cell (in plane strain).",
+    "element": "Dilatation point by point (in plane stress, by default) or by its mean over each cell (in strain).",
     "kinematics": "Small strain, finite strain, or what the program chooses at an accuracy of 1 %.",
     "folding": "Share of the accuracy that leaving out Prony branches may use; 0 keeps all of them.",
     "tolerance": "Distance from balance at which Newton's method stops, in finite strain.",

@@ -13,7 +13,7 @@ from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
 # Columns beyond which a mesh in finite strain takes gigabytes.
-_MOST_FINITE = 4096
+MOST_FINITE = 4096
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # A coarse mesh has no fewer columns, and its rows grow no faster.
@@ -78,4 +78,4 @@ def fit(scene: Scene, columns: float, finite: bool) -> int:
 def most_columns(scene: Scene, finite: bool) -> int:
     """Return the most columns that a mesh may have."""
     most = scene.numerics.columns_max
-    return min(most, _MOST_FINITE) if finite else most
+    return min(most, MOST_FINITE) if finite else most

@@ -98,7 +98,7 @@ def require_columns(scene: Scene, columns: int, fewest: float) -> None:
         )
 
 
-def require_resolved(scene: Scene, touching: Flags, steps: int) -> None:
+def require_resolved(scene: Scene, touching: Flags, steps: int, way_out: str) -> None:
     """Refuse a contact that has too few nodes.
 
     Parameters
@@ -107,6 +107,8 @@ def require_resolved(scene: Scene, touching: Flags, steps: int) -> None:
         Surface nodes in contact.
     steps : int
         Steps taken to find them.
+    way_out : str
+        What the reader may do besides raising the pressure.
 
     Raises
     ------
@@ -119,5 +121,5 @@ def require_resolved(scene: Scene, touching: Flags, steps: int) -> None:
             steps,
             count,
             f"number of surface nodes in contact, out of {len(touching)},",
-            f"at least {fewest} make a prediction: raise the pressure or numerics.columns_max",
+            f"at least {fewest} make a prediction: raise the pressure; {way_out}",
         )

@@ -12,7 +12,7 @@ from rubfric.errors import NotConverged
 from rubfric.resolvable import require_resolved
 from rubfric.routes import most_closure
 from rubfric.scene import Scene
-from rubfric.steady import require_solvable, solve
+from rubfric.steady import finer_mesh, require_solvable, solve
 
 
 def simulate(scene: Scene) -> xr.Dataset:
@@ -39,7 +39,8 @@ def simulate(scene: Scene) -> xr.Dataset:
     started = time.perf_counter()
     require_solvable(scene)
     solution = solve(scene)
-    require_resolved(scene, solution.contact.touching, solution.iterations)
+    way_out = finer_mesh(solution.decision.kinematics == "finite")
+    require_resolved(scene, solution.contact.touching, solution.iterations, way_out)
     energies = evaluate(solution)
     if not energies.closure <= most_closure(scene.numerics.accuracy):  # also where it is not a number
         raise NotConverged(
@@ -47,7 +48,7 @@ def simulate(scene: Scene) -> xr.Dataset:
             solution.iterations,
             energies.closure,
             "relative difference of the three friction coefficients",
-            "the mesh does not resolve this scene, or its rubber has no such digits: raise numerics.columns_max or the "
-            "pressure, or move Poisson's ratio away from its bounds",
+            "the mesh does not resolve this scene, or Poisson's ratio is too near its bounds: raise the pressure; "
+            + way_out,
         )
     return dataset.build(solution, energies, time.perf_counter() - started)

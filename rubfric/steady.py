@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rubfric.finitesteady import FiniteSolution, solve_finite
 from rubfric.kinematics import decide
-from rubfric.resolution import most_columns
+from rubfric.resolution import MOST_FINITE, most_columns
 from rubfric.resolvable import require_height, require_resolvable
 from rubfric.scene import Scene
 from rubfric.smallsteady import SmallSolution, solve_small
@@ -35,5 +35,14 @@ def require_solvable(scene: Scene) -> None:
     finite = decide(scene).kinematics == "finite"
     if finite:
         require_height(scene)
-    way_out = "small strain, which kinematics: auto takes here, has more" if finite else "raise numerics.columns_max"
-    require_resolvable(scene, most_columns(scene, finite), way_out)
+    require_resolvable(scene, most_columns(scene, finite), finer_mesh(finite))
+
+
+def finer_mesh(finite: bool) -> str:
+    """Return how a scene can have a finer mesh than it has had, in words."""
+    if finite:
+        return (
+            f"finite strain has at most {MOST_FINITE} columns, small strain (kinematics: small) up to "
+            "numerics.columns_max"
+        )
+    return "numerics.columns_max allows for more"

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from rubfric.cautions import faint
 from rubfric.transient import Transient
 
 # Share of the load, of the amplitude or of the energy turned over by which a bound may be missed: a solver's tolerance.
@@ -79,15 +80,8 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
         (closure <= most_closure, f"the three friction coefficients differ by {closure:.2%}"),
     )
     broken = tuple(sentence for kept, sentence in checks if not kept)
-    remarks = (*filter(None, result.attrs["warnings"].split("\n")), *_faint(max(power, lost, contact), floor))
+    remarks = tuple(filter(None, result.attrs["warnings"].split("\n")))
     return Verdict((power, lost, contact), closure, floor, broken, remarks)
-
-
-def _faint(friction: float, resolution: float) -> tuple[str, ...]:
-    """Return what to know of friction near the solver's tolerance, where there is any."""
-    if not 0.0 < friction < resolution:
-        return ()
-    return (f"Friction is below {resolution:.1g}, which the contact cannot tell from zero.",)
 
 
 def _least_gap(result: xr.Dataset) -> float:
@@ -126,7 +120,7 @@ def judge_march(found: Transient, most_closure: float) -> Verdict:
     broken = tuple(sentence for kept, sentence in checks if not kept)
     contact, work, energy = found.friction
     return Verdict(
-        (energy, work, contact), found.closure, found.resolution, broken, _faint(max(found.friction), found.resolution)
+        (energy, work, contact), found.closure, found.resolution, broken, tuple(faint(work, found.resolution))
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric.cautions import cautions
+from rubfric.cautions import cautions, faint
 from rubfric.finitesteady import FiniteSolution, solve_finite
 from rubfric.material import Material
 from rubfric.road import SineScale
@@ -157,3 +157,10 @@ def test_cautions_add_up(paper_rubber: Material) -> None:
     subjects += ("accuracy asked for", "surface nodes")
     assert len(notes) == len(subjects)
     assert all(subject in note for subject, note in zip(subjects, notes, strict=True))
+
+
+@pytest.mark.parametrize(("friction", "told"), [(1e-9, True), (1e-6, False), (0.1, False), (0.0, False)])
+def test_friction_that_cannot_be_told_from_zero_says_so(friction: float, told: bool) -> None:
+    said = faint(friction, 5e-7)
+    assert bool(said) == told
+    assert all("cannot tell from zero" in sentence for sentence in said)
