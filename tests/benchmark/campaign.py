@@ -40,7 +40,7 @@ def warm_up():
     pass
 
 def run(script, log, **arguments):
-    outputs = arguments.get("outputs") or [arguments["output"]]
+    outputs = arguments.get("outputs") or [arguments[name] for name in ("output", "mark") if name in arguments]
     for path in outputs:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).touch()

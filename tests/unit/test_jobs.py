@@ -139,6 +139,22 @@ def test_killed_job_fails_alone(place: Workplace) -> None:
     assert place.run("two", number=2).read_text().startswith("2 ")
 
 
+def test_log_that_cannot_be_opened_fails_the_job_with_a_sentence(place: Workplace) -> None:
+    (place.folder / "logs").write_text("")
+    sentence = r"^NotWritten: .*logs\S* could not be written, since a file stands where a folder belongs: move it away"
+    with pytest.raises(JobFailed, match=sentence):
+        place.run("one")
+    assert not (place.folder / "one.txt").exists()
+
+
+def test_log_on_a_full_disk_fails_the_job_with_a_sentence(place: Workplace) -> None:
+    (place.folder / "logs").mkdir()
+    place.log("one").symlink_to("/dev/full")
+    with pytest.raises(JobFailed, match=r"^NotWritten: .*one\.log could not be written, since the disk is full: make"):
+        place.run("one", number=1)
+    assert place.run("two", number=2).read_text().startswith("2 ")
+
+
 def test_failure_is_an_error_of_the_project() -> None:
     assert issubclass(JobFailed, RubfricError)
     assert issubclass(JobFailed, RuntimeError)

@@ -60,14 +60,20 @@ def test_file_holds_what_was_written(result: xr.Dataset, tmp_path: Path) -> None
     xr.testing.assert_identical(dataset.read(path), result)
 
 
-def test_checkpoint_of_another_march_does_not_stand_in_the_way(
-    paper_scene: SceneMaker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("same_code", [True, False])
+def test_checkpoint_of_another_march_or_of_other_code_does_not_stand_in_the_way(
+    paper_scene: SceneMaker,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    same_code: bool,
 ) -> None:
     monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[2] / "workflow" / "scripts"))
     script = import_module("march_scene")
     output = tmp_path / "march.nc"
-    left = tmp_path / ".march.nc.checkpoint"
+    left = script.checkpoint_of(output) if same_code else tmp_path / ".march.nc.0123456789abcdef.checkpoint"
     left.write_bytes(b"of another march")
     script.main(str(output), paper_scene(100.0, 0.5).parameters(), asdict(PROCEDURE))
     assert dataset.read(output).sizes["wavelength"] == 2
     assert not left.exists()
+    assert ("was left by other code" not in capsys.readouterr().out) == same_code

@@ -20,7 +20,7 @@ from project_copy import MINIMAL, Project
 
 from rubfric.dataset import load
 
-PATIENCE = 120.0  # s
+PATIENCE = 300.0  # s
 TARGETS = ("tables", "marches")
 # Five scenes and a march of 48 steps.
 TINY = """

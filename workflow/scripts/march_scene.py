@@ -1,5 +1,7 @@
 """Press a block onto its road and slide it step by step; write what happened."""
 
+import glob
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -9,17 +11,23 @@ from rubfric.marchdata import build
 from rubfric.procedure import Procedure
 from rubfric.scene import Scene
 from rubfric.simulation import simulate
+from rubfric.sources import sources
 from rubfric.transient import Transient, march
 
 
 def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> None:
     """March the scene of ``parameters`` through ``procedure`` into the netCDF file ``output``.
 
-    A march that was killed goes on from its checkpoint, a hidden file beside the output, if it is of the same config.
+    A march that was killed goes on from its checkpoint, a hidden file beside the output, if it is of the same config
+    and of the same code.
     """
     scene = Scene.from_parameters(parameters)
     place = Path(output)
-    checkpoint = place.with_name(f".{place.name}.checkpoint")
+    checkpoint = checkpoint_of(place)
+    for left in place.parent.glob(f".{glob.escape(place.name)}*.checkpoint"):
+        if left != checkpoint:
+            print(f"{left} was left by other code; beginning afresh", flush=True)
+            left.unlink()
     steady = float(simulate(scene)["friction_coefficient"])
 
     def go() -> Transient:
@@ -34,3 +42,9 @@ def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> 
     write(build(found, steady), output)
     checkpoint.unlink(missing_ok=True)
     print(f"{scene.name}: {found.saturation}; steady sliding gives {steady:.5g}")
+
+
+def checkpoint_of(output: Path) -> Path:
+    """Return where a march leaves its state: other code, another name."""
+    code = hashlib.sha256(b"".join(path.read_bytes() for path in sources("rubfric.transient"))).hexdigest()[:16]
+    return output.with_name(f".{output.name}.{code}.checkpoint")
