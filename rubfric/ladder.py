@@ -4,19 +4,19 @@ The knobs are turned one at a time, from the mesh of fineness 1 without further 
 
 - ``mesh``: nodes in contact, columns and rows together; ``surface`` the first two alone, ``rows`` and ``first_row``
   the grading towards the road;
-- ``element``: dilatation point by point, or by its mean over each cell;
+- ``element``: in plane strain, dilatation point by point, or by its mean over each cell;
 - ``kinematics``: small strain, finite strain, or what the scene needs;
 - ``folding``: the share of the accuracy that leaving out Prony branches may use;
 - ``tolerance`` of the solver in finite strain;
 - ``steps`` per wavelength, marched in time from steady sliding; ``wavelengths`` pressed and slid;
 - ``start``: an accuracy asked for, and the fineness of the first mesh on which it is looked for: presets are chosen
-  among these; ``preset``: the presets as they stand in the config.
+  among these (``rubfric.trade``).
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,7 @@ from rubfric.errors import NotConverged
 from rubfric.measured import measure
 from rubfric.presets import fineness
 from rubfric.procedure import Procedure
-from rubfric.scene import Numerics, Scene
+from rubfric.scene import Scene
 from rubfric.solution import SteadySolution
 from rubfric.steady import solve
 from rubfric.transient import Transient, march
@@ -59,17 +59,15 @@ class Rung:
     scene: Scene
 
 
-def rungs(scene: Scene, presets: Mapping[str, Numerics]) -> Iterator[Rung]:
+def rungs(scene: Scene) -> Iterator[Rung]:
     """Yield every rung of every knob of steady sliding for a scene, each knob from coarse to fine."""
-    base = dataclasses.replace(presets["standard"], **fineness(1.0), refinements=0)
+    base = dataclasses.replace(scene.numerics, **fineness(1.0), refinements=0)
 
     def rung(knob: str, name: str, kinematics: str = scene.kinematics, **numerics: Any) -> Rung:
         changed = dataclasses.replace(base, **numerics)
         return Rung(knob, name, dataclasses.replace(scene, kinematics=kinematics, numerics=changed))
 
-    for name, numerics in presets.items():
-        yield Rung("preset", name, dataclasses.replace(scene, numerics=numerics))
-    refinements = presets["standard"].refinements
+    refinements = scene.numerics.refinements
     for accuracy, starts in STARTS.items():
         for start in starts:
             yield rung(
@@ -83,7 +81,7 @@ def rungs(scene: Scene, presets: Mapping[str, Numerics]) -> Iterator[Rung]:
         yield rung("rows", f"{value:g}", row_growth=value)
     for value in _FIRST_ROWS:
         yield rung("first_row", f"{value:g}", first_row=value)
-    for word in ("pointwise", "mean"):
+    for word in ("pointwise", "mean") if scene.plane == "strain" else ():  # nothing locks in plane stress
         yield rung("element", word, dilatation=word)
     for word in ("small", "auto", "finite"):
         yield rung("kinematics", word, kinematics=word)
@@ -93,26 +91,26 @@ def rungs(scene: Scene, presets: Mapping[str, Numerics]) -> Iterator[Rung]:
         yield rung("tolerance", f"{value:g}", tolerance=value)
 
 
-def climb(name: str, scene: Scene, presets: Mapping[str, Numerics]) -> pd.DataFrame:
-    """Measure every rung of a scene.
+def climb(name: str, scene: Scene) -> pd.DataFrame:
+    """Measure every rung of a scene; its own numerics give what no knob turns.
 
     Returns
     -------
     pandas.DataFrame
         Columns scene, velocity (mm/s), pressure (MPa), knob, rung, friction_coefficient, reference, reference_error
-        (absolute), error and estimate (relative to the reference), seconds, cost (over the preset ``standard``),
-        iterations, krylov, memory_MB, columns, rows, meshes, kinematics, plane, note.
+        (absolute), error and estimate (relative to the reference), seconds, iterations,
+         krylov, memory_MB, columns, rows, meshes, kinematics, plane, note.
     """
     reference = converge(scene)
     measured: dict[Scene, dict[str, Any]] = {}  # several knobs share a rung
     found: list[dict[str, Any]] = []
-    for rung in rungs(scene, presets):
+    for rung in rungs(scene):
         if rung.scene not in measured:
             measured[rung.scene] = _steady(rung.scene)
         found.append({"knob": rung.knob, "rung": rung.rung} | measured[rung.scene])
     standard = next(row for row in found if (row["knob"], row["rung"]) == ("mesh", "1"))
     if standard["columns"] <= _MARCH_COLUMNS:
-        found += _marches(scene, presets["standard"], int(standard["columns"]) // 16 * 8)
+        found += _marches(scene, int(standard["columns"]) // 16 * 8)
     return _table(name, scene, reference, found)
 
 
@@ -143,9 +141,9 @@ def _steady(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _marches(scene: Scene, standard: Numerics, columns: int) -> Iterator[dict[str, Any]]:
+def _marches(scene: Scene, columns: int) -> Iterator[dict[str, Any]]:
     """Yield the rungs of the knobs of time: steps per wavelength, and wavelengths slid."""
-    scene = dataclasses.replace(scene, numerics=dataclasses.replace(standard, **fineness(1.0)))
+    scene = dataclasses.replace(scene, numerics=dataclasses.replace(scene.numerics, **fineness(1.0)))
     for steps in _STEPS:
         procedure = Procedure(
             start="steady", columns=columns, steps_per_wavelength=steps, wavelengths=2, until_saturated=False
@@ -200,7 +198,7 @@ COLUMNS = (
         "error",
         "estimate",
     ),
-    *("seconds", "cost", "iterations", "krylov", "memory_MB", "columns", "rows", "meshes", "kinematics", "plane"),
+    *("seconds", "iterations", "krylov", "memory_MB", "columns", "rows", "meshes", "kinematics", "plane"),
     "note",
 )
 
@@ -212,7 +210,5 @@ def _table(name: str, scene: Scene, reference: Converged, found: list[dict[str, 
     table["reference"], table["reference_error"] = reference.friction, reference.error
     table["error"] = (table["friction_coefficient"] - reference.friction).abs() / abs(reference.friction)
     table["estimate"] /= abs(reference.friction)
-    standard = table.query("knob == 'preset' and rung == 'standard'")["seconds"]
-    table["cost"] = table["seconds"] / float(standard.iloc[0])
     table["note"] = table["note"].fillna("")
     return table

@@ -14,7 +14,7 @@ _KNOBS = {
     "surface": "Columns and nodes in contact alone, by the same fineness; the rows stay.",
     "rows": "Growth of the rows away from the road alone.",
     "first_row": "Height of the row at the road, over the width of a column.",
-    "element": "Dilatation point by point (in plane stress, by default) or by its mean over each cell (in strain).",
+    "element": "In plane strain, dilatation point by point or by its mean over each cell (the default).",
     "kinematics": "Small strain, finite strain, or what the program chooses at an accuracy of 1 %.",
     "folding": "Share of the accuracy that leaving out Prony branches may use; 0 keeps all of them.",
     "tolerance": "Distance from balance at which Newton's method stops, in finite strain.",
@@ -65,8 +65,8 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
         "on the same scene in the same process.",
         "## Presets",
         preset_text(ladder, presets),
-        "Each starts on the coarsest mesh that is cheapest for its accuracy and keeps it on every scene, and refines "
-        "where the estimated error says so:",
+        "Each begins with the first mesh that is the cheapest for its accuracy and keeps it on every scene (the finest "
+        "of those that cost the same within 15 %), and refines it where the estimated error says so:",
         _markdown(_told(start_table(ladder))),
         "## Can the estimated errors be trusted?",
         calibration_text(calibration),
@@ -112,13 +112,13 @@ def calibration_text(calibration: pd.DataFrame) -> str:
             "set": found["set"],
             "results": found["scenes"],
             "refused": found["refused"],
-            "true error within the estimate": found["coverage"].map(_percent),
+            "true error within the estimate": (100.0 * found["coverage"]).map("{:.1f} %".format),
             "estimate over true error, median": found["ratio"].map("{:.1f}".format),
         }
     )
     word = "The target is met" if total["holds"] else "The target is not met"
     return (
-        f"{_markdown(table)}\n\n{word}: at least {_percent(COVERAGE)} of the true errors within the estimate, and the "
+        f"{_markdown(table)}\n\n{word}: at least {100.0 * COVERAGE:g} % of the true errors within the estimate, and the "
         f"estimate at most {EXCESS:g} times the true error at the median."
     )
 

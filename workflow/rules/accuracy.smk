@@ -27,7 +27,6 @@ rule ladder:
         f"{RESULTS}/logs/accuracy/{{scene}}.log",
     params:
         parameters=lambda wildcards: LADDERS[wildcards.scene].parameters(),
-        presets=PRESETS,
     message:
         "Accuracy against cost: {wildcards.scene}"
     run:
@@ -37,7 +36,6 @@ rule ladder:
             output=output[0],
             name=wildcards.scene,
             parameters=params.parameters,
-            presets=params.presets,
         )
 
 

@@ -3,13 +3,12 @@
 from typing import Any
 
 from rubfric.ladder import climb
-from rubfric.scene import Numerics, Scene
+from rubfric.scene import Scene
 from rubfric.tables import write_table
 
 
-def main(output: str, name: str, parameters: dict[str, Any], presets: dict[str, dict[str, Any]]) -> None:
+def main(output: str, name: str, parameters: dict[str, Any]) -> None:
     """Write the ladder of the scene that ``parameters`` describe as a CSV table."""
-    numerics = {preset: Numerics(**values) for preset, values in presets.items()}
-    table = climb(name, Scene.from_parameters(parameters), numerics)
+    table = climb(name, Scene.from_parameters(parameters))
     write_table(table, output)
     print(table.to_string())

@@ -8,7 +8,7 @@ from rubfric.atomic import whole
 from rubfric.calibration import climbed, verdict
 from rubfric.pages import accuracy_page
 from rubfric.tables import write_table
-from rubfric.trade import knob_table, start_table
+from rubfric.trade import knob_table, priced, start_table
 
 # What a label holds is text, though it may look like a number.
 _TEXT = {"rung": str, "note": str}
@@ -16,7 +16,7 @@ _TEXT = {"rung": str, "note": str}
 
 def main(outputs: dict[str, str], ladders: list[str], calibrations: list[str], accuracies: dict[str, float]) -> None:
     """Write the tables ladder, knobs, starts, calibration and verdict, and the page."""
-    ladder = pd.concat([pd.read_csv(path, dtype=_TEXT) for path in ladders], ignore_index=True)
+    ladder = priced(pd.concat([pd.read_csv(path, dtype=_TEXT) for path in ladders], ignore_index=True), accuracies)
     drawn = [pd.read_csv(path, dtype=_TEXT) for path in calibrations]
     calibration = pd.concat([climbed(ladder), *drawn], ignore_index=True)
     write_table(ladder, outputs["ladder"])
