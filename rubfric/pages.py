@@ -118,8 +118,8 @@ def calibration_text(calibration: pd.DataFrame) -> str:
     )
     word = "The target is met" if total["holds"] else "The target is not met"
     return (
-        f"{_markdown(table)}\n\n{word}: at least {100.0 * COVERAGE:g} % of the true errors within the estimate, and the "
-        f"estimate at most {EXCESS:g} times the true error at the median."
+        f"{_markdown(table)}\n\n{word}: at least {100.0 * COVERAGE:g} % of the true errors within the estimate, and "
+        f"the estimate at most {EXCESS:g} times the true error at the median."
     )
 
 

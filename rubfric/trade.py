@@ -11,7 +11,6 @@ from rubfric.ladder import STARTS
 from rubfric.presets import fineness
 from rubfric.scene import Numerics
 
-
 # First meshes whose costs differ by less than this share cost the same: the finest of them is taken.
 _TIE = 0.15
 
