@@ -11,7 +11,7 @@ from rubfric.extremes import PANELS, cases
 from rubfric.trial import Trial, confined
 
 # Every so-manieth case of each panel, and of marches, which take longer.
-_EVERY = 17
+_EVERY = 23
 # Cases with a history: each of them once failed, hung, or gave a number that it should not.
 _ONCE_BROKEN = (
     # no rows of cells for a block of eight even ones
