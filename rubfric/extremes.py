@@ -21,6 +21,8 @@ from rubfric.scene import Scene
 
 MOTIONS = ("steady", "march")
 _CORNERS, _MARCHED_CORNERS, _SEED = 40, 12, 20190923
+# Speeds of the panel ``limits``, mm/s: two far slower than its branch relaxes, one near that, two far faster.
+LIMIT_SPEEDS = (1e-9, 1e-6, 1.0, 1e6, 1e9)
 # Branches of the corners' rubber are spread over so many decades, and so are those of the panel of branches.
 _MOST_DECADES = 20.0
 
@@ -146,7 +148,7 @@ def cases() -> tuple[Case, ...]:
         ),
         *_plane("branches_share", [way | share for way in both], branches=(1, 6, 40), long_term_fraction=shares),
         *_plane("branches_share", [way | share for way in both], branches=(0,), long_term_fraction=(1.0,)),
-        *_plane("limits", both, branches=(1,), velocity=(1e-9, 1e-6, 1.0, 1e6, 1e9), pressure=(0.05, 5.0)),
+        *_plane("limits", both, branches=(1,), velocity=LIMIT_SPEEDS, pressure=(0.05, 5.0)),
         *_plane("march_speed_pressure", both, "march", velocity=(1e-9, 1e-3, 1e3, 1e9), pressure=(1e-6, 1.0, 1e3)),
         *_plane(
             "march_branches_share",

@@ -24,7 +24,7 @@ from rubfric.road import SineScale
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
 _VOLUME = 0.03
 # On a flat road displacements count by this share of a wavelength instead of the amplitude.
-_FLAT = 1e-8
+_FLAT = 1e-7
 # A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
 _MOST_PIVOTS = 100
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from rubfric.extremes import PANELS, Case
+from rubfric.extremes import LIMIT_SPEEDS, PANELS, Case
 from rubfric.trial import MOST_MEMORY, MOST_SECONDS, OUTCOMES, Trial
 
 # Parameter: heading.
@@ -68,7 +68,7 @@ class Limit:
     end : {"slow", "fast"}
         Far slower than the slowest branch, or far faster than the fastest one.
     error : float
-        Friction at one speed over what v or 1 / v make of that at the other, less one; NaN where one was refused.
+        Friction at one speed over what v or 1 / v make of that at the other, less one; NaN where one is missing.
     """
 
     plane: str
@@ -91,9 +91,8 @@ def limits(table: pd.DataFrame) -> list[Limit]:
     chosen = table[table["panel"] == "limits"]
     found = []
     for (plane, kinematics, pressure), part in chosen.groupby(["plane", "kinematics", "pressure_MPa"], sort=True):
-        friction = part.set_index("velocity_mm_per_s")["friction_coefficient_second"].sort_index()
-        speeds = friction.index.to_numpy()
-        for end, (first, second), power in (("slow", speeds[:2], 1.0), ("fast", speeds[-2:], -1.0)):
+        friction = part.set_index("velocity_mm_per_s")["friction_coefficient_second"].reindex(LIMIT_SPEEDS)
+        for end, (first, second), power in (("slow", LIMIT_SPEEDS[:2], 1.0), ("fast", LIMIT_SPEEDS[-2:], -1.0)):
             error = friction[second] / friction[first] / (second / first) ** power - 1.0
             found.append(Limit(str(plane), str(kinematics), float(pressure), end, float(error)))
     return found
@@ -176,7 +175,7 @@ def page(table: pd.DataFrame) -> str:
 
 
 def _followed(limit: Limit) -> tuple[str, ...]:
-    off = "refused" if np.isnan(limit.error) else f"{limit.error:+.2%}"
+    off = "no result" if np.isnan(limit.error) else f"{limit.error:+.2%}"
     return (limit.end, limit.plane, limit.kinematics, f"{limit.pressure:g} MPa", off)
 
 

@@ -21,7 +21,7 @@ _SLACK = 1e-4
 # Forces balance to round-off.
 _BALANCE = 1e-9
 # On a flat road lengths are measured by this share of a wavelength.
-_FLAT = 1e-8
+_FLAT = 1e-7
 # Share of the largest pressure and of the amplitude below which pressure and gap at one node are no contradiction.
 _TOUCHING = 1e-9
 # The first law is met in time to the second order of the step: share of the energy turned over that may be missing.

@@ -80,7 +80,7 @@ def test_a_refused_end_is_not_a_kept_limit() -> None:
         math.nan
     )
     assert not any(limit.kept for limit in limits(given) if limit.end == "fast")
-    assert "refused" in page(given)
+    assert "no result" in page(given)
 
 
 def test_page_names_failures_and_counts_refusals() -> None:
