@@ -58,13 +58,17 @@ def start_table(ladder: pd.DataFrame) -> pd.DataFrame:
     rows = []
     for accuracy, starts in STARTS.items():
         found = [knobs.loc[f"{accuracy:g} from {start:g}"] for start in starts]
-        keeping = [entry["seconds"] for entry in found if entry["worst_error"] <= accuracy and not entry["refused"]]
+        keeping = {
+            start: float(entry["seconds"])
+            for start, entry in zip(starts, found, strict=True)
+            if entry["worst_error"] <= accuracy and not entry["refused"]
+        }
         if not keeping:
             raise BrokenResult(f"no first mesh of the ladder keeps an accuracy of {accuracy:g} on every scene")
+        cheapest = min(keeping, key=keeping.__getitem__)
         for start, entry in zip(starts, found, strict=True):
             numbers = {name: entry[name] for name in ("typical_error", "worst_error", "cost", "seconds")}
-            chosen = entry["seconds"] == min(keeping)
-            rows.append({"accuracy": accuracy, "fineness": start, **numbers, "chosen": chosen})
+            rows.append({"accuracy": accuracy, "fineness": start, **numbers, "chosen": start == cheapest})
     return pd.DataFrame(rows)
 
 
