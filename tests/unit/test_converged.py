@@ -41,9 +41,7 @@ def approaching(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Solver]:
 
 @PLANES
 @pytest.mark.parametrize("velocity", [0.1, 1.0])
-def test_full_contact_is_the_closed_form_within_the_bound(
-    paper_scene: SceneMaker, plane: str, velocity: float
-) -> None:
+def test_full_contact_is_the_closed_form_within_the_bound(paper_scene: SceneMaker, plane: str, velocity: float) -> None:
     scene = paper_scene(velocity, 9.0, plane=plane)
     found = converge(scene)
     assert abs(found.friction - exact(scene)) <= found.error

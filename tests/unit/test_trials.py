@@ -1,4 +1,4 @@
-"""Scenes on which accuracy is measured: the fixed set has everything in it, drawn ones are reproducible and in range."""
+"""Scenes on which accuracy is measured: the fixed set has everything in it, drawn ones are seeded and in range."""
 
 from __future__ import annotations
 

@@ -75,7 +75,9 @@ def test_estimate_is_within_a_factor_of_two_where_the_order_is_one(
     assert 0.5 * error <= estimate <= 2.0 * error
 
 
-@pytest.mark.parametrize("resolution", [COARSE, FINE, Resolution(256, 1.4), Resolution(32, 1.1), Resolution(4096, 1.01)])
+@pytest.mark.parametrize(
+    "resolution", [COARSE, FINE, Resolution(256, 1.4), Resolution(32, 1.1), Resolution(4096, 1.01)]
+)
 def test_meshes_that_agree_leave_the_error_that_their_cells_allow(resolution: Resolution) -> None:
     same = Friction(FRICTION, FRICTION, 0.0)
     coarser = Resolution(resolution.columns // 2, 1.0 + 2.0 * (resolution.growth - 1.0))
