@@ -107,6 +107,14 @@ def test_unsteady_approach_is_not_extrapolated(paper_scene: SceneMaker, approach
     assert found.error == pytest.approx(2e-3 * FRICTION, rel=1e-9)
 
 
+def test_routes_that_stay_apart_are_in_the_bound(paper_scene: SceneMaker, approaching: Callable[..., Solver]) -> None:
+    scene = paper_scene(1.0, 9.0)
+    approaching(scene, lambda _: Friction(0.99 * FRICTION, 1.01 * FRICTION, 0.0))
+    found = converge(scene)
+    assert found.friction == pytest.approx(FRICTION, rel=1e-12)
+    assert found.error == pytest.approx(0.01 * FRICTION, rel=1e-9)  # either may be the right one
+
+
 def test_three_meshes_are_of_one_family_and_each_finer(
     paper_scene: SceneMaker, approaching: Callable[..., Solver]
 ) -> None:

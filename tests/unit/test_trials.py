@@ -39,7 +39,7 @@ def test_fixed_set_has_every_scale_plane_and_kind_of_speed_and_load(campaign: Ca
     for scale in (1, 2, 3, 4):
         own = [scene for scene in found if scene.scale == scale]
         assert {scene.plane for scene in own} == {"stress", "strain"}
-        assert any(scene.velocity <= 1.0 or scene.scale == 3 for scene in own)  # slow
+        assert any(scene.velocity <= 1.0 for scene in own)  # slow
         assert any(10.0 <= scene.velocity <= 1000.0 for scene in own)  # near the peak
         assert any(scene.velocity == 1e4 for scene in own)  # fast
         assert any(scene.pressure <= 0.5 for scene in own)
