@@ -16,6 +16,7 @@ The knobs are turned one at a time, from the mesh of fineness 1 without further 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -24,7 +25,7 @@ import pandas as pd
 
 from rubfric.converged import Converged, converge
 from rubfric.energy import evaluate
-from rubfric.errors import NotConverged
+from rubfric.errors import InvalidInput, NotConverged
 from rubfric.measured import measure
 from rubfric.presets import fineness
 from rubfric.procedure import Procedure
@@ -109,7 +110,7 @@ def climb(name: str, scene: Scene) -> pd.DataFrame:
             measured[rung.scene] = _steady(rung.scene)
         found.append({"knob": rung.knob, "rung": rung.rung} | measured[rung.scene])
     standard = next(row for row in found if (row["knob"], row["rung"]) == ("mesh", "1"))
-    if standard["columns"] <= _MARCH_COLUMNS:
+    if standard.get("columns", math.inf) <= _MARCH_COLUMNS:  # none where it was refused
         found += _marches(scene, int(standard["columns"]) // 16 * 8)
     return _table(name, scene, reference, found)
 
@@ -162,7 +163,7 @@ def _march(knob: str, slid: dict[str, int], scene: Scene, procedure: Procedure) 
     """Yield one rung for every number of wavelengths slid, out of one march."""
     try:
         cost = measure(lambda: march(scene, procedure))
-    except NotConverged as error:
+    except (InvalidInput, NotConverged) as error:
         yield from ({"knob": knob, "rung": rung, "note": str(error)} for rung in slid)
         return
     found: Transient = cost.result

@@ -7,6 +7,8 @@ import pandas as pd
 from rubfric.calibration import COVERAGE, EXCESS, verdict
 from rubfric.trade import knob_table, start_table
 
+# What stands where there is no number.
+_NOTHING = "-"
 # Knob: what it is, in which words its rungs are told.
 _KNOBS = {
     "mesh": "The whole mesh at once: nodes in contact, columns and rows, by its fineness (1: 64 nodes in contact in "
@@ -132,7 +134,7 @@ def dominance(ladder: pd.DataFrame) -> pd.DataFrame:
         row = {"regime": regime}
         for knob, (_, words) in _TURNS.items():
             found = part.loc[part["knob"] == knob, "change"]
-            row[words] = f"{_percent(found.median())} ({_percent(found.max())})" if len(found) else "-"
+            row[words] = f"{_percent(found.median())} ({_percent(found.max())})" if len(found) else _NOTHING
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -161,8 +163,11 @@ def _dominance_words(ladder: pd.DataFrame) -> list[str]:
 
 
 def _bought(rungs: pd.DataFrame) -> str:
-    """Return in one sentence what the knob's last rung buys over its first."""
-    first, last = rungs.iloc[0], rungs.iloc[-1]
+    """Return in one sentence what the knob's last rung buys over its first, of those that any scene was solved on."""
+    solved = rungs[rungs["scenes"] > 0]
+    if not len(solved):
+        return "No scene could be solved."
+    first, last = solved.iloc[0], solved.iloc[-1]
     return (
         f"From {first['rung']} to {last['rung']} the typical error goes from {_percent(first['typical_error'])} to "
         f"{_percent(last['typical_error'])} and the worst from {_percent(first['worst_error'])} to "
@@ -178,14 +183,14 @@ def _told(table: pd.DataFrame) -> pd.DataFrame:
             told[name] = told[name].map(_percent)
     for name, form in (("cost", "{:.2g}"), ("seconds", "{:.1f}"), ("memory_MB", "{:.0f}"), ("fineness", "{:g}")):
         if name in told:
-            told[name] = told[name].map(form.format)
+            told[name] = [_NOTHING if pd.isna(value) else form.format(value) for value in told[name]]
     if "chosen" in told:
         told["chosen"] = told["chosen"].map({True: "yes", False: ""})
     return told.rename(columns=lambda name: str(name).replace("_MB", ", MB").replace("_", " "))
 
 
 def _percent(share: float) -> str:
-    return "-" if pd.isna(share) else f"{100.0 * share:.2g} %"
+    return _NOTHING if pd.isna(share) else f"{100.0 * share:.2g} %"
 
 
 def _markdown(table: pd.DataFrame) -> str:

@@ -19,7 +19,7 @@ _NODES, _FINITE_NODES, _COLUMNS, _FINITE_COLUMNS, _GROWTH = 64, 32, 256, 128, 0.
 
 
 def fineness(value: float) -> dict[str, Any]:
-    """Return what ``PRESET_KEYS`` say of the first mesh at some fineness, 1 being the default."""
+    """Return what ``PRESET_KEYS`` say of the first mesh at some fineness, 0.5 being that of the preset ``standard``."""
 
     def columns(number: int) -> int:
         return max(8, 8 * round(number * value / 8))

@@ -102,7 +102,7 @@ def start_table(ladder: pd.DataFrame) -> pd.DataFrame:
     for accuracy, starts in STARTS.items():
         found = [knobs.loc[_rung(accuracy, start)] for start in starts]
         keeping = {
-            start: entry["seconds"]
+            start: float(entry["seconds"])
             for start, entry in zip(starts, found, strict=True)
             if entry["worst_error"] <= accuracy and not entry["refused"]
         }

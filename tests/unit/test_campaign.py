@@ -142,7 +142,7 @@ OUT_OF_RANGE = [
     Bad("numerics.columns_min", 100, "numerics.columns_min is 100, but must be a multiple of 8"),
     Bad("numerics.columns_max", 1001, "numerics.columns_max is 1001, but must be a multiple of 8"),
     Bad("numerics.output_columns", 0, "numerics.output_columns is 0, but must be a whole number of at least 1"),
-    Bad("numerics.columns_max", 128, "numerics.columns_max is 128, but must be at least 256", schema=False),
+    Bad("numerics.columns_max", 120, "numerics.columns_max is 120, but must be at least 128", schema=False),
     Bad("numerics.row_growth", 1, "numerics.row_growth is 1, but must be at least 1.00001"),
     Bad("numerics.refinements", -1, "numerics.refinements is -1, but must be a whole number of at least 0"),
     Bad("numerics.refinements", 13, "numerics.refinements is 13, but must be at most 12"),

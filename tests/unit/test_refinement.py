@@ -9,6 +9,7 @@ import pytest
 from synthetic_meshes import FRICTION, Solver, Synthetic, cell_size, power_law
 
 from rubfric.errors import NotConverged
+from rubfric.presets import fineness
 from rubfric.refinement import refined
 from rubfric.resolution import Resolution, most_columns, needed
 from rubfric.scene import Numerics, Scene
@@ -18,6 +19,8 @@ from rubfric.uncertainty import allowance, discretisation_error
 SceneMaker = Callable[..., Scene]
 EXACT = power_law(0.0, 1.0)
 START = Resolution(64, 1.2)
+# A mesh of 256 columns at least, 64 nodes in contact and rows that grow by a tenth.
+FINE = fineness(1.0)
 # Columns are rounded up to a number that suits the transform.
 ROUNDING = 1.12
 
@@ -31,7 +34,7 @@ def columns_of(solver: Solver) -> list[int]:
 
 
 def test_exact_friction_takes_a_coarse_mesh_and_the_one_needed(paper_scene: SceneMaker) -> None:
-    scene = paper_scene(100.0, 0.5)
+    scene = paper_scene(100.0, 0.5, numerics=Numerics(**FINE))
     target = needed(scene, 1.0, False)
     solver = Solver(scene, target.coarser(scene, False), EXACT)
     solution = refined(scene, solver)
@@ -60,7 +63,7 @@ def test_small_contacts_are_reached_in_strides(paper_scene: SceneMaker, finite: 
 
 @pytest.mark.parametrize("columns", [90, 128, 160, 256])
 def test_mesh_like_the_coarse_one_stands_in_for_it(paper_scene: SceneMaker, columns: int) -> None:
-    scene = paper_scene(100.0, 0.5)  # 128 columns are the coarse mesh
+    scene = paper_scene(100.0, 0.5, numerics=Numerics(**FINE))  # 128 columns are the coarse mesh
     solver = Solver(scene, Resolution(columns, 1.2), EXACT)
     refined(scene, solver)
     assert solver.seen == [Resolution(columns, 1.2), needed(scene, 1.0, False)]
@@ -68,7 +71,7 @@ def test_mesh_like_the_coarse_one_stands_in_for_it(paper_scene: SceneMaker, colu
 
 def test_contact_found_on_the_way_decides_how_far_it_goes(paper_scene: SceneMaker) -> None:
     # Coarse meshes see more contact than there is.
-    scene = paper_scene(100.0, 0.5, numerics=Numerics(refinements=0))
+    scene = paper_scene(100.0, 0.5, numerics=Numerics(**FINE, refinements=0))
     solver = Solver(scene, START, EXACT, fraction=lambda columns: 0.01 + 8.0 / columns)
     solution = refined(scene, solver)
     assert solution.resolved
@@ -78,7 +81,7 @@ def test_contact_found_on_the_way_decides_how_far_it_goes(paper_scene: SceneMake
 
 
 def test_mesh_that_misses_nodes_is_followed_by_a_finer_one(paper_scene: SceneMaker) -> None:
-    scene = paper_scene(100.0, 0.5, numerics=Numerics(refinements=0))
+    scene = paper_scene(100.0, 0.5, numerics=Numerics(**FINE, refinements=0))
     start = Resolution(512, 1.2)
     solver = Solver(scene, start, EXACT, fraction=lambda columns: 0.1 if columns <= 512 else 0.05)
     solution = refined(scene, solver)

@@ -13,6 +13,7 @@ from rubfric import contact, continuation, energy, simulation, steady
 from rubfric.errors import NotConverged
 from rubfric.material import Material
 from rubfric.newton import Stalled
+from rubfric.presets import fineness
 from rubfric.road import SineScale
 from rubfric.scene import Numerics, Scene
 from rubfric.simulation import simulate
@@ -98,8 +99,13 @@ def test_three_lines_of_the_package_answer() -> None:
 
 def test_three_lines_answer_in_small_strain_too() -> None:
     campaign = rubfric.load(CONFIG)
-    result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5, kinematics="small"))
-    assert float(result.friction_coefficient) == pytest.approx(0.1287, abs=5e-5)
+    scene = campaign.scene(scale=1, velocity=100, pressure=5, kinematics="small")
+    result = rubfric.simulate(scene)
+    finer = rubfric.simulate(replace(scene, numerics=replace(scene.numerics, **fineness(1.0))))
+    assert float(finer.friction_coefficient) == pytest.approx(0.1287, abs=5e-5)
+    error = float(result.friction_coefficient_error)
+    assert 0.0 < error <= 0.01 * float(result.friction_coefficient)
+    assert float(result.friction_coefficient) == pytest.approx(float(finer.friction_coefficient), abs=error)
 
 
 def test_package_offers_what_it_lists() -> None:

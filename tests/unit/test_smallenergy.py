@@ -8,6 +8,7 @@ import pytest
 
 from rubfric import smallenergy
 from rubfric.material import Material
+from rubfric.presets import fineness
 from rubfric.road import SineScale
 from rubfric.routes import output_stride
 from rubfric.scene import Numerics, Scene
@@ -19,7 +20,8 @@ from rubfric.strain import StrainHarmonics, harmonic_strain
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 BULK = pytest.mark.parametrize("bulk", ["elastic", "proportional"])
-EVERY_COLUMN = Numerics(output_columns=4096)
+FINE = Numerics(**fineness(1.0))
+EVERY_COLUMN = replace(FINE, output_columns=4096)
 
 
 def solve(scene: Scene) -> SmallSolution:
@@ -80,7 +82,7 @@ def test_contact_route_is_the_horizontal_force_of_the_road(paper_scene: SceneMak
 @PLANES
 @BULK
 def test_three_routes_agree(paper_scene: SceneMaker, paper_rubber: Material, plane: str, bulk: str) -> None:
-    scene = paper_scene(1000.0, 5.0, plane=plane, material=replace(paper_rubber, bulk=bulk))
+    scene = paper_scene(1000.0, 5.0, plane=plane, material=replace(paper_rubber, bulk=bulk), numerics=FINE)
     result = evaluate_small(solve(scene))
     assert result.stress_power > 0.1
     assert result.stress_power == pytest.approx(result.dissipation, rel=1e-11)
@@ -204,7 +206,7 @@ def test_displacement_settles_evenly_on_the_mean(paper_scene: SceneMaker, plane:
 
 
 def test_fields_keep_at_most_the_columns_asked_for(paper_scene: SceneMaker) -> None:
-    solution = solve(paper_scene(1e4, 5.0, numerics=Numerics(output_columns=64)))
+    solution = solve(paper_scene(1e4, 5.0, numerics=replace(FINE, output_columns=64)))
     fine = evaluate_small(solve(paper_scene(1e4, 5.0, numerics=EVERY_COLUMN)))
     coarse = evaluate_small(solution)
     stride = output_stride(solution.block.columns, 64)

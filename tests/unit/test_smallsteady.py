@@ -9,6 +9,7 @@ import pytest
 from rubfric import contact as contact_module
 from rubfric import reference, smallsteady
 from rubfric.errors import NotConverged
+from rubfric.presets import fineness
 from rubfric.scene import Numerics, Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 from rubfric.solution import Decision
@@ -17,8 +18,8 @@ from rubfric.strain import synthesise
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 DECISION = Decision("small", 0.25, "small strain was asked for")
-# The mesh that the contact needs is the last.
-AS_NEEDED = Numerics(refinements=0)
+# The mesh that the contact needs is the last; it has 64 nodes in contact.
+AS_NEEDED = Numerics(**fineness(1.0), refinements=0)
 
 
 def solve(scene: Scene) -> SmallSolution:
@@ -91,7 +92,7 @@ def test_mesh_is_refined_where_the_first_guess_was_too_coarse(
 
 
 def test_contact_too_small_for_the_finest_mesh_is_not_resolved(paper_scene: SceneMaker) -> None:
-    solution = solve(paper_scene(1000.0, 0.02, numerics=Numerics(columns_max=512)))
+    solution = solve(paper_scene(1000.0, 0.02, numerics=Numerics(**fineness(1.0), columns_max=512)))
     assert solution.block.columns == 512
     assert 1 <= np.count_nonzero(solution.contact.touching) < 0.9 * 64
     assert not solution.resolved
@@ -105,7 +106,7 @@ def test_coarsest_mesh_asked_for_is_kept(paper_scene: SceneMaker) -> None:
 def test_contact_does_not_depend_on_how_the_mesh_was_found(paper_scene: SceneMaker, plane: str) -> None:
     found = solve(paper_scene(1e4, 5.0, plane=plane, numerics=AS_NEEDED))
     columns = found.block.columns
-    same = Numerics(columns_min=columns, contact_nodes=16, refinements=0)
+    same = replace(AS_NEEDED, columns_min=columns, contact_nodes=16)
     asked = solve(paper_scene(1e4, 5.0, plane=plane, numerics=same))
     assert asked.block.columns == columns
     largest = found.contact.pressure.max()

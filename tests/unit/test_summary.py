@@ -15,6 +15,7 @@ VALUES: dict[str, Any] = {
     "friction_coefficient_dissipation": 0.123450,
     "friction_coefficient_contact": 0.123444,
     "friction_coefficient_error": 0.000456,
+    "friction_resolution": 5.25e-07,
     "energy_closure": 9.72e-05,
     "contact_fraction": 0.45678,
     "maximum_contact_pressure": 11.2222,
