@@ -23,7 +23,7 @@ from rubfric.measured import Measured
 from rubfric.presets import fineness
 from rubfric.procedure import Procedure
 from rubfric.resolution import Resolution
-from rubfric.scene import Numerics, Scene
+from rubfric.scene import Scene
 from rubfric.solution import Decision, Friction, SteadySolution
 from rubfric.uncertainty import friction_error
 
@@ -96,7 +96,7 @@ def costs(monkeypatch: pytest.MonkeyPatch) -> Costs:
 
 @pytest.fixture
 def scene(paper_scene: SceneMaker) -> Scene:
-    return paper_scene(100.0, 0.5, kinematics="auto", plane="stress", numerics=Numerics(accuracy=0.1))
+    return paper_scene(100.0, 0.5, kinematics="auto", plane="strain", numerics=PRESETS["standard"])
 
 
 def of(table: pd.DataFrame, knob: str) -> pd.DataFrame:
@@ -111,7 +111,7 @@ def turned(scene: Scene, base: Scene) -> set[str]:
 
 
 def test_every_knob_has_its_rungs_from_coarse_to_fine(scene: Scene) -> None:
-    found = list(rungs(scene, PRESETS))
+    found = list(rungs(scene))
     names = [(rung.knob, rung.rung) for rung in found]
     assert len(set(names)) == len(names)
     by_knob: dict[str, list[str]] = {}
@@ -119,7 +119,6 @@ def test_every_knob_has_its_rungs_from_coarse_to_fine(scene: Scene) -> None:
         by_knob.setdefault(knob, []).append(name)
     starts = [f"{accuracy:g} from {start:g}" for accuracy, values in STARTS.items() for start in values]
     assert by_knob == {
-        "preset": ["draft", "standard", "reference"],
         "start": starts,
         "mesh": ["0.25", "0.35", "0.5", "0.7", "1", "1.4", "2"],
         "surface": ["0.25", "0.5", "1", "2"],
@@ -135,18 +134,19 @@ def test_every_knob_has_its_rungs_from_coarse_to_fine(scene: Scene) -> None:
 def test_every_knob_turns_nothing_but_its_own(scene: Scene) -> None:
     base = replace(scene, numerics=replace(PRESETS["standard"], **fineness(1.0), refinements=0))
     seen: dict[str, set[str]] = {}
-    for rung in rungs(scene, PRESETS):
-        if rung.knob == "preset":
-            assert rung.scene == replace(scene, numerics=PRESETS[rung.rung])
-        else:
-            changed = turned(rung.scene, base)
-            assert changed <= TURNS[rung.knob], rung
-            seen[rung.knob] = seen.get(rung.knob, set()) | changed
+    for rung in rungs(scene):
+        changed = turned(rung.scene, base)
+        assert changed <= TURNS[rung.knob], rung
+        seen[rung.knob] = seen.get(rung.knob, set()) | changed
     assert seen == TURNS
 
 
+def test_nothing_locks_in_plane_stress_so_that_elements_are_not_compared(scene: Scene) -> None:
+    assert "element" not in {rung.knob for rung in rungs(replace(scene, plane="stress"))}
+
+
 def test_starts_are_those_of_their_names(scene: Scene) -> None:
-    found = {rung.rung: rung.scene.numerics for rung in rungs(scene, PRESETS) if rung.knob == "start"}
+    found = {rung.rung: rung.scene.numerics for rung in rungs(scene) if rung.knob == "start"}
     for name, numerics in found.items():
         accuracy, start = name.split(" from ")
         assert numerics == replace(PRESETS["standard"], accuracy=float(accuracy), **fineness(float(start)))
@@ -155,9 +155,9 @@ def test_starts_are_those_of_their_names(scene: Scene) -> None:
 
 
 def test_table_has_every_rung_and_each_scene_is_solved_once(scene: Scene, costs: Costs) -> None:
-    table = climb("some", scene, PRESETS)
+    table = climb("some", scene)
     assert list(table.columns) == list(COLUMNS)
-    wanted = list(rungs(scene, PRESETS))
+    wanted = list(rungs(scene))
     steady = table[~table["knob"].isin(["steps", "wavelengths"])]
     assert list(zip(steady["knob"], steady["rung"], strict=True)) == [(rung.knob, rung.rung) for rung in wanted]
     assert Counter(costs.solved) == Counter({rung.scene: 1 for rung in wanted})
@@ -167,17 +167,15 @@ def test_table_has_every_rung_and_each_scene_is_solved_once(scene: Scene, costs:
         pd.testing.assert_series_equal(row.drop("knob"), shared[0].drop("knob"), check_names=False)
 
 
-def test_errors_and_costs_are_relative(scene: Scene, costs: Costs) -> None:
-    table = climb("some", scene, PRESETS)
+def test_errors_are_relative(scene: Scene, costs: Costs) -> None:
+    table = climb("some", scene)
     assert set(table["scene"]) == {"some"}
-    assert set(table["plane"]) == {"stress"}
+    assert set(table["plane"]) == {"strain"}
     assert set(table["velocity"]) == {100.0}
     assert set(table["pressure"]) == {0.5}
     assert set(table["reference"]) == {FRICTION}
     assert set(table["reference_error"]) == {1e-5}
-    mesh, standard = of(table, "mesh"), of(table, "preset").loc["standard"]
-    assert standard["cost"] == 1.0
-    assert (mesh["cost"].to_numpy() == mesh["columns"].to_numpy() / standard["columns"]).all()
+    mesh = of(table, "mesh")
     for value in (0.5, 1.0, 2.0):
         numerics = replace(PRESETS["standard"], **fineness(value), refinements=0)
         solution = costs.solve(replace(scene, numerics=numerics))
@@ -191,7 +189,7 @@ def test_errors_and_costs_are_relative(scene: Scene, costs: Costs) -> None:
 
 def test_small_strain_that_is_asked_for_has_no_estimate_of_the_error(scene: Scene, costs: Costs) -> None:
     # Its estimate is to small strain, but errors are to finite strain.
-    found = of(climb("some", scene, PRESETS), "kinematics")
+    found = of(climb("some", scene), "kinematics")
     assert np.isnan(found.loc["small", "estimate"])
     assert "to small strain" in found.loc["small", "note"]
     assert found.loc[["auto", "finite"], "estimate"].notna().all()
@@ -199,30 +197,30 @@ def test_small_strain_that_is_asked_for_has_no_estimate_of_the_error(scene: Scen
 
 def test_refused_rung_has_a_note_and_no_numbers(scene: Scene, costs: Costs) -> None:
     costs.refused = lambda given: given.numerics.accuracy == 0.002
-    table = climb("some", scene, PRESETS)
-    refused = table["rung"].str.startswith("0.002 from") | (table["rung"] == "reference")
-    assert refused.sum() == len(STARTS[0.002]) + 1
+    table = climb("some", scene)
+    refused = table["rung"].str.startswith("0.002 from")
+    assert refused.sum() == len(STARTS[0.002])
     note = f"{scene.name}: not converged after 7 steps, something is 0.5"
     assert set(table.loc[refused, "note"]) == {note}
-    numbers = ["friction_coefficient", "error", "estimate", "seconds", "cost", "columns"]
+    numbers = ["friction_coefficient", "error", "estimate", "seconds", "columns"]
     assert table.loc[refused, numbers].isna().all(axis=None)
-    assert table.loc[~refused, ["friction_coefficient", "error", "seconds", "cost"]].notna().all(axis=None)
+    assert table.loc[~refused, ["friction_coefficient", "error", "seconds"]].notna().all(axis=None)
     assert Counter(costs.solved).most_common(1)[0][1] == 1  # refused once, too
 
 
 def test_refusal_of_everything_is_a_table_too(scene: Scene, costs: Costs) -> None:
     costs.refused = lambda given: True
-    table = climb("some", scene, PRESETS)
-    assert len(table) == len(list(rungs(scene, PRESETS)))
+    table = climb("some", scene)
+    assert len(table) == len(list(rungs(scene)))
     assert (table["note"] != "").all()
-    assert table[["friction_coefficient", "error", "cost"]].isna().all(axis=None)
+    assert table[["friction_coefficient", "error", "seconds"]].isna().all(axis=None)
     assert not costs.marched
 
 
 def test_marches_are_on_half_the_columns_and_only_where_few_suffice(
     scene: Scene, costs: Costs, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    table = climb("some", scene, PRESETS)
+    table = climb("some", scene)
     steps, slid = of(table, "steps"), of(table, "wavelengths")
     assert list(steps.index) == ["8", "16", "32", "64"]
     assert list(slid.index) == ["1", "2", "4", "8"]
@@ -242,14 +240,14 @@ def test_marches_are_on_half_the_columns_and_only_where_few_suffice(
 
     costs.marched.clear()
     monkeypatch.setattr(ladder, "_MARCH_COLUMNS", 120)
-    assert not set(climb("some", scene, PRESETS)["knob"]) & {"steps", "wavelengths"}
+    assert not set(climb("some", scene)["knob"]) & {"steps", "wavelengths"}
     assert not costs.marched
 
 
 @pytest.mark.parametrize("refusal", [NotConverged("some", 3, 0.5, "something"), InvalidInput("too few columns")])
 def test_refused_march_has_a_note_for_each_of_its_rungs(scene: Scene, costs: Costs, refusal: Exception) -> None:
     costs.refusal = refusal
-    table = climb("some", scene, PRESETS)
+    table = climb("some", scene)
     marched = table[table["knob"].isin(["steps", "wavelengths"])]
     assert len(marched) == 8
     assert set(marched["note"]) == {str(refusal)}

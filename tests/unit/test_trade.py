@@ -14,7 +14,7 @@ import rubfric
 from rubfric.errors import BrokenResult
 from rubfric.ladder import STARTS
 from rubfric.presets import fineness
-from rubfric.trade import knob_table, presets_that_differ, start_table
+from rubfric.trade import knob_table, presets_that_differ, priced, start_table
 
 CONFIG = Path(rubfric.__file__).resolve().parent.parent / "config" / "config.yaml"
 SCENES = ("a", "b", "c")
@@ -98,9 +98,25 @@ def test_cheapest_first_mesh_is_chosen_for_each_accuracy() -> None:
 def test_cheap_first_mesh_that_misses_the_accuracy_on_one_scene_is_not_chosen() -> None:
     for errors in ([1e-3, 1e-3, 0.0101], [1e-3, np.nan, 1e-3]):  # off, or refused
         assert chosen(start_table(starts(at_0_01_from_0_35=(errors, 0.35))))[0.01] == 0.5
-    # Nor where it costs the same as the one that is.
+    # Nor where it costs the same as the one that is; of two that keep it at the same cost, it is the finer one.
     same = starts(at_0_01_from_0_35=([0.02] * 3, 0.5), at_0_01_from_0_7=([1e-3] * 3, 0.5))
-    assert chosen(start_table(same))[0.01] == 0.5
+    assert chosen(start_table(same))[0.01] == 0.7
+
+
+def test_presets_are_priced_out_of_the_ladder() -> None:
+    ladder = starts().drop(columns="cost")
+    found = priced(ladder, PRESET_ACCURACIES)
+    presets = found[found["knob"] == "preset"]
+    assert list(dict.fromkeys(presets["rung"])) == list(PRESET_ACCURACIES)
+    best = {accuracy: values[0] for accuracy, values in STARTS.items()}
+    for name, accuracy in PRESET_ACCURACIES.items():
+        rows = ladder[ladder["rung"] == f"{accuracy:g} from {best[accuracy]:g}"]
+        one = presets[presets["rung"] == name]
+        np.testing.assert_array_equal(one["seconds"], rows["seconds"])
+    assert (found[found["rung"] == "standard"]["cost"] == 1.0).all()
+    assert len(found) == len(ladder) + len(presets)
+    with pytest.raises(BrokenResult, match=r"^the ladder has no accuracy of 0\.3, that of the preset rough$"):
+        priced(ladder, {"rough": 0.3})
 
 
 def test_accuracy_that_is_just_kept_is_kept() -> None:
@@ -117,7 +133,7 @@ def test_presets_that_are_the_chosen_ones_do_not_differ() -> None:
     presets = rubfric.load(CONFIG).presets
     table = pd.DataFrame(
         {"accuracy": accuracy, "fineness": start, "chosen": start == best}
-        for accuracy, best in ((0.05, 0.35), (0.01, 0.5), (0.002, 0.7))
+        for accuracy, best in ((0.05, 0.35), (0.01, 0.5), (0.002, 0.5))
         for start in STARTS[accuracy]
     )
     assert {name: numerics.accuracy for name, numerics in presets.items()} == PRESET_ACCURACIES
