@@ -31,7 +31,6 @@ from rubfric.simulation import simulate
 from rubfric.transient import march
 
 PROJECT = Path(__file__).resolve().parents[2]
-ROUNDS = 3
 # Stands in for rubfric/jobs.py: a job that only touches its outputs.
 TOUCH = """
 from pathlib import Path
@@ -140,8 +139,9 @@ def measure(campaign: Campaign) -> tuple[float, float, float, float, float]:
 
 def main() -> None:
     """Measure, print and publish."""
+    number = tables.rounds(__doc__)
     campaign = load(PROJECT / "config/config.yaml")
-    rounds = [measure(campaign) for _ in range(ROUNDS)]
+    rounds = [measure(campaign) for _ in range(number)]
     whole, scenes, marches, touching, figures = (statistics.median(times) for times in zip(*rounds, strict=True))
     floor = (scenes + marches) / 2.0 + touching + figures
     ratios = sorted(each[0] / ((each[1] + each[2]) / 2.0 + each[3] + each[4]) for each in rounds)
@@ -156,7 +156,7 @@ def main() -> None:
         ("- drawing every figure once", f"{figures:.1f} s"),
         ("campaign over floor, round by round", ", ".join(f"{ratio:.2f}" for ratio in ratios)),
     ]
-    text = f"{tables.markdown(rows)}\n\nMedians of {ROUNDS} rounds. {tables.machine()}."
+    text = f"{tables.markdown(rows)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
     print(text)
     tables.publish("campaign", text)
 

@@ -31,7 +31,6 @@ from rubfric.scene import KINEMATICS, Scene
 from rubfric.simulation import simulate
 
 POINTS = 256
-ROUNDS = 3
 PLANES = ("stress", "strain")
 # What the parts of a scene in finite strain are called: module, name, label.
 PARTS = (
@@ -61,15 +60,15 @@ def seconds(work, scene: Scene) -> float:
     return time.perf_counter() - started
 
 
-def measure(scenes: list[Scene]) -> dict[str, list[float]]:
+def measure(scenes: list[Scene], rounds: int) -> dict[str, list[float]]:
     """Return the times of all scenes in the three kinematics and of the bare solve; each scene's median round."""
-    rounds: dict[str, list[list[float]]] = defaultdict(list)
+    found: dict[str, list[list[float]]] = defaultdict(list)
     for scene in scenes:
         kinds = {kind: (simulate, replace(scene, kinematics=kind)) for kind in KINEMATICS}
         kinds["bare"] = (bare, scene)
         for kind, (work, chosen) in kinds.items():
-            rounds[kind].append([seconds(work, chosen) for _ in range(ROUNDS)])
-    return {kind: [statistics.median(times) for times in scene_times] for kind, scene_times in rounds.items()}
+            found[kind].append([seconds(work, chosen) for _ in range(rounds)])
+    return {kind: [statistics.median(times) for times in scene_times] for kind, scene_times in found.items()}
 
 
 def shares(scenes: list[Scene]) -> dict[str, float]:
@@ -98,6 +97,7 @@ def shares(scenes: list[Scene]) -> dict[str, float]:
 
 def main() -> None:
     """Measure, print and publish."""
+    rounds = tables.rounds(__doc__)
     campaign = load(Path(__file__).resolve().parents[2] / "config/config.yaml")
     scenes = [scene for scene in campaign.scenes().values() if scene.aspect == campaign.aspect]
     simulate(scenes[0])
@@ -105,7 +105,7 @@ def main() -> None:
     rows: list[tuple[str, ...]] = [("one scene, in-process", "median", "90 %", "slowest")]
     ratio = 0.0
     for plane in PLANES:
-        times = measure([replace(scene, plane=plane) for scene in scenes])
+        times = measure([replace(scene, plane=plane) for scene in scenes], rounds)
         for kind in KINEMATICS:
             rows.append((f"plane {plane}, {kind}", *written(times[kind])))
 
@@ -116,7 +116,7 @@ def main() -> None:
     parts = ", ".join(f"{label} {share:.0%}" for label, share in shares(scenes).items())
     text = (
         f"{tables.markdown(rows)}\n\n"
-        f"{len(scenes)} scenes in each plane, the median of {ROUNDS} rounds of each; small strain takes {ratio:.1f} "
+        f"{len(scenes)} scenes in each plane, {tables.times(rounds)} of each; small strain takes {ratio:.1f} "
         f"times a bare contact solve; peak memory {memory:.0f} MB. Where the time of finite strain goes: {parts}. "
         f"{tables.machine()}."
     )

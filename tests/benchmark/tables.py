@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import platform
 import re
 from pathlib import Path
 
 README = Path(__file__).resolve().parents[2] / "README.md"
+
+
+def rounds(description: str | None) -> int:
+    """Return how many rounds the command line asks for, 3 by default."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="rounds to measure (default: 3)")
+    asked = int(parser.parse_args().rounds)
+    if asked < 1:
+        parser.error(f"--rounds is {asked}, but must be at least 1")
+    return asked
+
+
+def times(number: int) -> str:
+    """Return a number of rounds in words."""
+    return "one round" if number == 1 else f"the median of {number} rounds"
 
 
 def machine() -> str:

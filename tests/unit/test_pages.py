@@ -115,7 +115,11 @@ def test_page_marks_the_first_mesh_that_was_chosen(page: str) -> None:
     assert [row[:2] for row in rows] == [
         [f"{100.0 * accuracy:g} %", f"{start:g}"] for accuracy, values in STARTS.items() for start in values
     ]
-    assert [row[1] for row in rows if row[-1] == "yes"] == ["0.25", "0.35", "0.7"]  # the last costs hardly more than 0.5
+    assert [row[1] for row in rows if row[-1] == "yes"] == [
+        "0.25",
+        "0.35",
+        "0.7",
+    ]  # the last costs hardly more than 0.5
 
 
 @pytest.mark.parametrize(("covered", "word"), [(20, "The target is met"), (18, "The target is not met")])
