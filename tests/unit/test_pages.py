@@ -119,7 +119,7 @@ def test_page_marks_the_first_mesh_that_was_chosen(page: str) -> None:
         "0.25",
         "0.35",
         "0.7",
-    ]  # the last costs hardly more than 0.5
+    ]
 
 
 @pytest.mark.parametrize(("covered", "word"), [(20, "The target is met"), (18, "The target is not met")])
