@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rubfric.resolution import MOST_CELLS
 from rubfric.solution import SteadySolution
 from rubfric.uncertainty import friction_error
 
@@ -54,8 +55,17 @@ def _inaccurate(solution: SteadySolution) -> list[str]:
         return []
     return [
         f"The accuracy asked for, {solution.scene.numerics.accuracy:.2%}, is not met: the estimated error is "
-        f"{error / friction:.2%} after {len(solution.meshes)} meshes; raise numerics.refinements or columns_max."
+        f"{error / friction:.2%} after {len(solution.meshes)} meshes; {_remedy(solution)}."
     ]
+
+
+def _remedy(solution: SteadySolution) -> str:
+    """Return what would make a scene more accurate."""
+    if len(solution.meshes) > solution.scene.numerics.refinements + 1:
+        return "raise numerics.refinements"
+    if solution.decision.kinematics == "finite":
+        return f"finite strain takes no mesh of more than {MOST_CELLS} cells"
+    return "raise numerics.refinements or numerics.columns_max"
 
 
 def faint(friction: float, resolution: float) -> list[str]:

@@ -65,6 +65,8 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
             break
         factor = min(max(_MARGIN * (error / allowed) ** (1.0 / ORDER), _LEAST), _MOST)
         resolution = resolution.finer(scene, factor, solver.finite)
+        if not resolution.affordable(scene, solver.finite):
+            break
         solution = _solved(solver, resolution, meshes)
     return dataclasses.replace(solution, meshes=tuple(meshes))
 

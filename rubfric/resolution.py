@@ -12,8 +12,8 @@ from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Columns beyond which a mesh in finite strain takes gigabytes.
-MOST_FINITE = 4096
+# Columns, and cells, beyond which a mesh in finite strain takes more than two gigabytes.
+MOST_FINITE, MOST_CELLS = 4096, 280_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # A coarse mesh has no fewer columns, and its rows grow no faster.
@@ -47,6 +47,10 @@ class Resolution:
             numerics.first_row,
             numerics.dilatation,
         )
+
+    def affordable(self, scene: Scene, finite: bool) -> bool:
+        """Return whether so fine a mesh may be solved."""
+        return not finite or self.columns * self.block(scene).rows <= MOST_CELLS
 
     def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
         """Return the mesh with cells smaller by ``factor`` in both directions."""
