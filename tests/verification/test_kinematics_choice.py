@@ -11,6 +11,7 @@ import pytest
 
 from rubfric.energy import evaluate
 from rubfric.kinematics import decide, estimated_correction
+from rubfric.presets import fineness
 from rubfric.scene import Numerics, Scene
 from rubfric.steady import solve
 
@@ -33,11 +34,13 @@ NEAR = [
 # The same for a twentieth in plane stress.
 NEAR_IN_STRESS = [*product((1, 4), (0.1, 1.0), (0.01, 0.03)), (1, 10.0, 0.01), (1, 10.0, 0.02), (1, 10.0, 0.05)]
 PAPER = [*product((1,), (0.1, 10.0, 100.0), (0.5, 5.0)), (3, 10.0, 2.0), (3, 1000.0, 5.0)]
+# Twice the contact nodes of fineness 1, and no mesh but this one.
+FINE = replace(Numerics(**fineness(1.0)), finite_contact_nodes=64, refinements=0)
 
 
 def correction(scene: Scene) -> float:
     """Return the relative change of friction from small to finite strain, by the contact, on one mesh."""
-    finite = solve(replace(scene, kinematics="finite", numerics=Numerics(finite_contact_nodes=64)))
+    finite = solve(replace(scene, kinematics="finite", numerics=FINE))
     columns, growth = finite.block.columns, finite.meshes[-1].growth
     same = Numerics(contact_nodes=4, columns_min=columns, columns_max=columns, finite_columns_min=8, row_growth=growth)
     small = solve(replace(scene, kinematics="small", numerics=same))
