@@ -14,6 +14,7 @@ import pytest
 
 from rubfric.energy import evaluate
 from rubfric.material import Material
+from rubfric.presets import fineness
 from rubfric.scene import Numerics, Scene
 from rubfric.steady import solve
 
@@ -34,7 +35,7 @@ def harmonic_pressure(plane: str) -> float:
 
 
 def deep_scene(paper_scene: SceneMaker, rubber: Material, plane: str) -> Scene:
-    numerics = Numerics(row_growth=1.04, output_columns=256)
+    numerics = Numerics(**fineness(1.0) | {"row_growth": 1.04}, output_columns=256)
     return paper_scene(1.0, 5.0, plane=plane, aspect=2.0, material=rubber, numerics=numerics)
 
 

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from rubfric import reference
 from rubfric.energy import evaluate
+from rubfric.presets import fineness
 from rubfric.routes import Energies
 from rubfric.scene import Numerics, Scene
 from rubfric.solution import SteadySolution
 from rubfric.steady import solve
+from rubfric.uncertainty import friction_error
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 ASPECTS = pytest.mark.parametrize("aspect", [0.25, 0.5, 0.75, 1.0, 2.0])
 VELOCITIES = (1e-3, 1.0, 10.0, 100.0, 1e3, 1e4)  # mm/s
-FINER = Numerics(row_growth=1.05)
+FINE = Numerics(**fineness(1.0), refinements=0)
+FINER = replace(FINE, row_growth=1.05)
 
 
 def filled(
@@ -52,13 +56,25 @@ def test_friction_to_a_thousandth_with_graded_rows_of_five_percent(
 
 @PLANES
 @ASPECTS
-def test_default_mesh_errs_by_a_thousandth_and_by_two_in_flat_blocks(
+def test_rows_of_ten_percent_err_by_a_thousandth_and_by_two_in_flat_blocks(
     paper_scene: SceneMaker, plane: str, aspect: float
 ) -> None:
     limit = 2e-3 if aspect == 0.25 else 1e-3
     for velocity in VELOCITIES:
-        scene, _, result = filled(paper_scene, plane, aspect, velocity, Numerics())
+        scene, _, result = filled(paper_scene, plane, aspect, velocity, FINE)
         assert result.stress_power == pytest.approx(expected_friction(scene), rel=limit)
+
+
+@PLANES
+@ASPECTS
+def test_default_mesh_errs_by_three_thousandths_and_less_than_its_estimate(
+    paper_scene: SceneMaker, plane: str, aspect: float
+) -> None:
+    for velocity in VELOCITIES:
+        scene, solution, result = filled(paper_scene, plane, aspect, velocity, Numerics())
+        error = abs(result.stress_power - expected_friction(scene))
+        assert error <= 3e-3 * expected_friction(scene)
+        assert error <= friction_error(solution)
 
 
 @PLANES
