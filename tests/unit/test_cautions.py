@@ -12,6 +12,7 @@ from rubfric.cautions import cautions, faint
 from rubfric.finitesteady import FiniteSolution, solve_finite
 from rubfric.material import Material
 from rubfric.road import SineScale
+from rubfric.resolution import MOST_CELLS
 from rubfric.scene import Numerics, Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 from rubfric.solution import Decision, SteadySolution
@@ -139,9 +140,23 @@ def test_accuracy_that_is_not_met_is_noted(solve: Solve) -> None:
         asked = replace(solution, scene=replace(scene, numerics=replace(scene.numerics, accuracy=accuracy)))
         note = (
             f"The accuracy asked for, {accuracy:.2%}, is not met: the estimated error is {error:.2%} after "
-            f"{len(solution.meshes)} meshes; raise numerics.refinements or columns_max."
+            f"{len(solution.meshes)} meshes; raise numerics.refinements."
         )
         assert cautions(asked, 0.0) == ([note] if noted else NOTHING)
+
+
+@pytest.mark.parametrize(
+    ("solve", "remedy"),
+    [
+        (small, "raise numerics.refinements or numerics.columns_max"),
+        (finite, f"finite strain takes no mesh of more than {MOST_CELLS} cells"),
+    ],
+)
+def test_what_would_help_is_told(solve: Solve, remedy: str) -> None:
+    solution = solve(replace(SCENE, numerics=replace(COARSE, refinements=0)))
+    numerics = replace(SCENE.numerics, accuracy=1e-6, refinements=len(solution.meshes))
+    asked = replace(solution, scene=replace(SCENE, numerics=numerics))
+    assert [line for line in cautions(asked, 0.0) if line.endswith(f"meshes; {remedy}.")]
 
 
 @pytest.mark.parametrize("solve", [small, finite])

@@ -11,7 +11,7 @@ from synthetic_meshes import FRICTION, Solver, Synthetic, cell_size, power_law
 from rubfric.errors import NotConverged
 from rubfric.presets import fineness
 from rubfric.refinement import refined
-from rubfric.resolution import Resolution, most_columns, needed
+from rubfric.resolution import MOST_CELLS, Resolution, most_columns, needed
 from rubfric.scene import Numerics, Scene
 from rubfric.solution import Friction
 from rubfric.uncertainty import allowance, discretisation_error
@@ -105,6 +105,19 @@ def test_finite_strain_ends_at_a_bound_of_its_own(paper_scene: SceneMaker) -> No
     solver = Solver(scene, START, EXACT, fraction=lambda columns: 10.0 / columns, finite=True)
     refined(scene, solver)
     assert solver.seen[-1].columns == most_columns(scene, True) < scene.numerics.columns_max
+
+
+def test_refinement_in_finite_strain_ends_where_a_mesh_has_too_many_cells(paper_scene: SceneMaker) -> None:
+    scene = paper_scene(100.0, 0.5, numerics=Numerics(accuracy=1e-6, refinements=12))
+    law = power_law(0.1, 1.0, contact=1.0)
+    for finite in (True, False):
+        solver = Solver(scene, START, law, finite=finite)
+        refined(scene, solver)
+        finest = solver.seen[-1]
+        cells = finest.columns * finest.block(scene).rows
+        assert (cells <= MOST_CELLS) == finite
+        if finite:
+            assert not finest.finer(scene, 2.0, finite).affordable(scene, finite)
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
