@@ -11,8 +11,8 @@ import pytest
 from rubfric.cautions import cautions, faint
 from rubfric.finitesteady import FiniteSolution, solve_finite
 from rubfric.material import Material
-from rubfric.road import SineScale
 from rubfric.resolution import MOST_CELLS
+from rubfric.road import SineScale
 from rubfric.scene import Numerics, Scene
 from rubfric.smallsteady import SmallSolution, solve_small
 from rubfric.solution import Decision, SteadySolution
