@@ -51,7 +51,7 @@ NO_FOLDERS = (None, True, 5, float("nan"), "", " ", "a\nb", "{x}", "\ud800", "\0
 HUGE = (1e31, 1e300, 10**31)
 EMPTY_ALLOWED = ("shear_fractions", "relaxation_times")
 OPTIONAL = ("moduli", "bulk", "density")
-CATALOGUES = (("rubbers",), ("roads",))
+CATALOGUES = (("rubbers",), ("roads",), ("presets",))
 
 
 def ways(tree: Any, way: Way = ()) -> Iterator[Way]:
@@ -197,8 +197,9 @@ def test_any_key_taken_away_is_missed_by_name(config: Config) -> None:
             continue
         without = copy.deepcopy(config)
         del at(without, way[:-1])[way[-1]]
-        catalogue = len(way) == 2 and way[0] in ("rubbers", "roads")
-        in_use = catalogue and config[str(way[0])[:-1]] == way[1]
+        catalogue = len(way) == 2 and way[:1] in CATALOGUES
+        chosen = config["numerics"]["preset"] if way[0] == "presets" else config.get(str(way[0])[:-1])
+        in_use = catalogue and chosen == way[1]
         if (catalogue and not in_use) or (way[0] == "rubbers" and way[-1] in OPTIONAL and len(way) == 3):
             Campaign.from_config(without)
         else:
