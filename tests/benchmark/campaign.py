@@ -139,7 +139,7 @@ def measure(campaign: Campaign) -> tuple[float, float, float, float, float]:
 
 def main() -> None:
     """Measure, print and publish."""
-    number = tables.rounds(__doc__)
+    number = tables.options(__doc__).rounds
     campaign = load(PROJECT / "config/config.yaml")
     rounds = [measure(campaign) for _ in range(number)]
     whole, scenes, marches, touching, figures = (statistics.median(times) for times in zip(*rounds, strict=True))

@@ -97,9 +97,11 @@ def shares(scenes: list[Scene]) -> dict[str, float]:
 
 def main() -> None:
     """Measure, print and publish."""
-    rounds = tables.rounds(__doc__)
+    asked = tables.options(__doc__, every=(1, "take only every Nth scene"))
+    rounds = asked.rounds
     campaign = load(Path(__file__).resolve().parents[2] / "config/config.yaml")
     scenes = [scene for scene in campaign.scenes().values() if scene.aspect == campaign.aspect]
+    scenes = scenes[:: asked.every]
     simulate(scenes[0])
     bare(scenes[0])
     rows: list[tuple[str, ...]] = [("one scene, in-process", "median", "90 %", "slowest")]

@@ -11,13 +11,15 @@ from pathlib import Path
 README = Path(__file__).resolve().parents[2] / "README.md"
 
 
-def rounds(description: str | None) -> int:
-    """Return how many rounds the command line asks for, 3 by default."""
+def options(description: str | None, **more: tuple[int, str]) -> argparse.Namespace:
+    """Return what the command line asks for: ``rounds``, 3 by default, and more whole numbers with their help."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="rounds to measure (default: 3)")
-    asked = int(parser.parse_args().rounds)
-    if asked < 1:
-        parser.error(f"--rounds is {asked}, but must be at least 1")
+    for name, (usual, what) in {"rounds": (3, "rounds to measure"), **more}.items():
+        parser.add_argument(f"--{name}", type=int, default=usual, metavar="N", help=f"{what} (default: {usual})")
+    asked = parser.parse_args()
+    for name, value in vars(asked).items():
+        if value < 1:
+            parser.error(f"--{name} is {value}, but must be at least 1")
     return asked
 
 
