@@ -8,6 +8,7 @@ routes to friction on them say how large the error is (``rubfric.uncertainty``).
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -25,6 +26,8 @@ _STRIDE = 6.0
 _NEAR = 1.5
 # Smallest and largest refinement that an error asks for, and how much more than its estimate says.
 _LEAST, _MOST, _MARGIN = 1.5, 2.0, 1.1
+# Where so fine a mesh may not be solved, one finer by this factor is worth while.
+_WORTH = 1.2
 
 Solution = TypeVar("Solution", bound=SteadySolution, covariant=True)
 
@@ -64,11 +67,20 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         if not (helps and 0.0 < allowed < error):
             break
         factor = min(max(_MARGIN * (error / allowed) ** (1.0 / ORDER), _LEAST), _MOST)
-        resolution = resolution.finer(scene, factor, solver.finite)
-        if not resolution.affordable(scene, solver.finite):
+        finer = next((mesh for mesh in _choices(scene, resolution, factor, solver.finite)), None)
+        if finer is None:
             break
-        solution = _solved(solver, resolution, meshes)
+        resolution, solution = finer, _solved(solver, finer, meshes)
     return dataclasses.replace(solution, meshes=tuple(meshes))
+
+
+def _choices(scene: Scene, resolution: Resolution, factor: float, finite: bool) -> Iterator[Resolution]:
+    """Yield finer meshes that may be solved, that of ``factor`` first; none that would be hardly finer."""
+    while factor >= _WORTH:
+        finer = resolution.finer(scene, factor, finite)
+        if finer.affordable(scene, finite):
+            yield finer
+        factor -= 0.1
 
 
 def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> Solution:

@@ -12,8 +12,8 @@ from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Columns, and cells, beyond which a mesh in finite strain takes more than two gigabytes.
-MOST_FINITE, MOST_CELLS = 4096, 280_000
+# Columns, and cells, beyond which a mesh in finite strain takes more than three gigabytes.
+MOST_FINITE, MOST_CELLS = 4096, 450_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # A coarse mesh has no fewer columns, and its rows grow no faster.

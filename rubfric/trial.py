@@ -28,7 +28,7 @@ from rubfric.verdict import Verdict, judge_march, judge_steady
 
 OUTCOMES = ("converged", "refused", "failed")
 # Limits of a case: processor time and wall time, s, and memory, MiB.
-MOST_SECONDS, MOST_WALL, MOST_MEMORY = 90, 1800, 2048
+MOST_SECONDS, MOST_WALL, MOST_MEMORY = 120, 1800, 3072
 # Address space holds what is reserved and never touched; this only guards the machine.
 _MOST_SPACE = 3 * MOST_MEMORY
 _MIB = 2**20
