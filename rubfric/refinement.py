@@ -1,8 +1,8 @@
 """From a coarse mesh to one that is fine enough: what every way of solving a scene has in common.
 
 A scene is solved on a mesh with cells twice as large as the contact seems to need, then on the one that it needs, and
-then on finer ones, until the estimated error of friction is within the accuracy asked for. The last two meshes and the
-routes to friction on them say how large the error is (``rubfric.uncertainty``).
+then on finer ones, until the estimated error of friction is within the accuracy asked for. All of them and the routes to
+friction on the last say how large the error is (``rubfric.uncertainty``).
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         if not (helps and 0.0 < allowed < error):
             break
         factor = min(max(_MARGIN * (error / allowed) ** (1.0 / ORDER), _LEAST), _MOST)
-        finer = next((mesh for mesh in _choices(scene, resolution, factor, solver.finite)), None)
+        finer = next(_choices(scene, resolution, factor, solver.finite), None)
         if finer is None:
             break
         resolution, solution = finer, _solved(solver, finer, meshes)
