@@ -1,8 +1,8 @@
 """From a coarse mesh to one that is fine enough: what every way of solving a scene has in common.
 
 A scene is solved on a mesh with cells twice as large as the contact seems to need, then on the one that it needs, and
-then on finer ones, until the estimated error of friction is within the accuracy asked for. All of them and the routes to
-friction on the last say how large the error is (``rubfric.uncertainty``).
+then on finer ones, until the estimated error of friction is within the accuracy asked for. All of them, and the
+routes to friction on the last, say how large the error is (``rubfric.uncertainty``).
 """
 
 from __future__ import annotations
