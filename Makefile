@@ -20,7 +20,7 @@ figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
 
 test: $(VENV)/.ready
-	python -m pytest
+	python -m pytest -n $(JOBS)
 
 check: $(VENV)/.ready
 	ruff check .

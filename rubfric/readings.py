@@ -76,12 +76,13 @@ def read_claims(entry: Any, presets: Iterable[str]) -> ClaimsChoice:
     compare = entry["compare"]
     if not isinstance(compare, list):
         raise InvalidInput(f"claims.compare is {checks.shown(compare)}, but must be a list of names, or [] for none")
+    known = {_name(name): _read(name, changes) for name, changes in readings.items()}
     difference = checks.at_least("claims.difference", entry["difference"], 0.001)
     return ClaimsChoice(
         difference=checks.at_most("claims.difference", difference, 0.5),
         preset=checks.one_of("claims.preset", entry["preset"], presets),
-        compare=tuple(dict.fromkeys(checks.one_of("claims.compare", name, readings) for name in compare)),
-        readings={_name(name): _read(name, changes) for name, changes in readings.items()},
+        compare=tuple(dict.fromkeys(checks.one_of("claims.compare", name, known) for name in compare)),
+        readings=known,
     )
 
 

@@ -19,7 +19,8 @@ from rubfric.choices import AspectStudy
 from rubfric.errors import InvalidInput
 from rubfric.material import BULK, MODULI, PLANES, Material
 from rubfric.presets import PRESET_KEYS
-from rubfric.scene import DILATATIONS, Numerics
+from rubfric.readings import Reading
+from rubfric.scene import DILATATIONS, KINEMATICS, Numerics
 
 SCHEMA: dict[str, Any] = yaml.safe_load((ROOT / "workflow" / "schemas" / "config.schema.yaml").read_text())
 UNITS = re.compile(r"(?<![\w/])(mm/s|MPa|1/mm|t/mm³|mm|s)(?![\w/'])|\bdimensionless\b")
@@ -30,6 +31,8 @@ MAPPINGS = {
     "aspect_study": "properties.aspect_study",
     "figures": "properties.figures",
     "figures.fields": "properties.figures.properties.fields",
+    "claims": "properties.claims",
+    "claims.readings.plane_strain": "properties.claims.properties.readings.additionalProperties",
     "numerics": "properties.numerics",
     "presets.draft": "properties.presets.additionalProperties",
     "rubbers.zhou2019": "properties.rubbers.additionalProperties",
@@ -87,7 +90,7 @@ def test_schema_is_valid() -> None:
 
 def test_every_object_is_closed_or_describes_its_entries() -> None:
     objects = {at: node for at, node in nodes(SCHEMA) if node.get("type") == "object"}
-    assert len(objects) == 13
+    assert len(objects) == 16
     assert all("additionalProperties" in node for node in objects.values())
     assert all(node["additionalProperties"] is False for node in objects.values() if "properties" in node)
     assert all(isinstance(node["additionalProperties"], dict) for node in objects.values() if "properties" not in node)
@@ -121,7 +124,7 @@ def test_schema_and_reader_require_the_same_keys(config: Config, at: str, descri
     for key in node["properties"]:
         without = copy.deepcopy(config)
         entry(without, at).pop(key, None)  # a preset's key may be missing already
-        if key in node["required"]:
+        if key in node.get("required", ()):
             with pytest.raises(InvalidInput, match=f"lacks the key '{key}'$"):
                 Campaign.from_config(without)
         else:
@@ -147,6 +150,10 @@ def test_choices_are_those_of_the_code() -> None:
     rubber = entry(SCHEMA, MAPPINGS["rubbers.zhou2019"])["properties"]
     assert tuple(SCHEMA["properties"]["plane"]["enum"]) == PLANES
     assert tuple(SCHEMA["properties"]["numerics"]["properties"]["dilatation"]["enum"]) == DILATATIONS
+    reading = entry(SCHEMA, MAPPINGS["claims.readings.plane_strain"])["properties"]
+    assert list(reading) == [field.name for field in fields(Reading)]
+    for name, allowed in {"plane": PLANES, "kinematics": KINEMATICS, "moduli": MODULI, "bulk": BULK}.items():
+        assert tuple(reading[name]["enum"]) == tuple(allowed)
     assert tuple(rubber["moduli"]["enum"]) == MODULI
     assert tuple(rubber["bulk"]["enum"]) == BULK
 
