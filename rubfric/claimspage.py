@@ -134,8 +134,9 @@ def _number(row: pd.Series) -> str:
     if not isinstance(row["where"], str):
         return "nothing yet"
     sense, limit = row["limit"].split()
+    error = row["error"] if math.isfinite(row["error"]) else math.nan
     return (
-        f"{row['deciding_quantity']}: {_percent(row['value'], row['error'])} (has to be {sense} "
+        f"{row['deciding_quantity']}: {_percent(row['value'], error)} (has to be {sense} "
         f"{_percent(float(limit))}), {row['where']}"
     )
 

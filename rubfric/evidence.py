@@ -113,6 +113,12 @@ def march_evidence(march: xr.Dataset, tolerance: float) -> Evidence:
     )
 
 
+def march_note(evidence: Iterable[Evidence]) -> str:
+    """Return in a sentence which marches were too short to decide, or nothing where none was."""
+    short = [f"{one.velocity:g}" for one in evidence if one.claim == "C5" and np.isinf(one.error)]
+    return f"At {', '.join(short)} mm/s the march ended before the rubber forgot its beginning." if short else ""
+
+
 def _ratios(observed: xr.Dataset, aspect: float, studied: set[float], difference: float) -> Iterator[Evidence]:
     for scale, pressure in _pairs(observed, "scale", "pressure"):
         at = observed.sel(scale=scale, pressure=pressure)

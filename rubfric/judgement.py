@@ -68,7 +68,7 @@ def claims_table(
     -------
     pandas.DataFrame
         Columns ``COLUMNS``. ``parts`` counts part by part; the deciding quantity is the number that is farthest on
-        the wrong side of its limit, or nearest to it where the claim holds.
+        the wrong side of its limit, else the one that is undecided, or the one nearest to it where the claim holds.
     """
     rows = []
     for reading, found in evidence.items():
@@ -95,9 +95,8 @@ def _row(name: str, reading: str, pressure: float | str, evidence: Sequence[Evid
         "parts": _parts(name, evidence),
         "note": note,
     }
-    decided = [one for one in evidence if one.outcome != "open"] or list(evidence)
-    if decided:
-        worst = min(decided, key=lambda one: one.margin)
+    if evidence:
+        worst = _deciding(evidence)
         row |= {
             "deciding_quantity": claim.parts[worst.part],
             "value": worst.value,
@@ -106,6 +105,14 @@ def _row(name: str, reading: str, pressure: float | str, evidence: Sequence[Evid
             "where": place(worst),
         }
     return row
+
+
+def _deciding(evidence: Sequence[Evidence]) -> Evidence:
+    """Return the number that keeps a claim from holding, or comes nearest to it."""
+    by_outcome = {word: [one for one in evidence if one.outcome == word] for word in ("no", "open", "yes")}
+    holds = verdict([one.outcome for one in evidence]) == HOLDS
+    kept = by_outcome["yes"] if holds else next(found for found in by_outcome.values() if found)
+    return min(kept, key=lambda one: one.margin)
 
 
 def verdict(outcomes: Sequence[str]) -> str:

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from rubfric.evidence import Evidence, depth_evidence, gather, march_evidence
+from rubfric.evidence import Evidence, depth_evidence, gather, march_evidence, march_note
 
 VELOCITIES, PRESSURES, ASPECTS = [1.0, 10.0, 100.0, 1000.0], [0.5, 5.0], [0.25, 0.75, 1.5]
 BELL = np.array([1.0, 2.0, 4.0, 2.0])
@@ -146,4 +146,6 @@ def test_march_decides_once_it_slid_for_as_long_as_rubber_remembers(slid: int, v
         {"saturation_wavelengths": slid, "saturation_needed": 10, "saturation_variation": variation},
         attrs={"scale": 1, "pressure": 0.5, "velocity": 10.0},
     )
-    assert march_evidence(march, 0.01).outcome == outcome
+    found = march_evidence(march, 0.01)
+    assert found.outcome == outcome
+    assert ("At 10 mm/s the march ended" in march_note([found])) == (outcome == "open")

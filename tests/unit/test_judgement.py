@@ -72,6 +72,16 @@ def test_deciding_number_is_the_farthest_on_the_wrong_side() -> None:
     assert row["parts"] == "peaks over speed: 1 of 2 (1 more undecided)"
 
 
+def test_where_nothing_contradicts_the_undecided_number_is_told() -> None:
+    yes, open_ = peak(0.5, 5.0, "C6"), peak(0.001, 1.0, "C6")
+    row = claims_table({AS_CONFIGURED: [yes, open_]}, 5.0, {}).set_index(["claim", "pressure_MPa"]).loc["C6", EVERY]
+    assert (row["verdict"], row["value"]) == (IN_PART, 0.001)
+    row = (
+        claims_table({AS_CONFIGURED: [yes, yes, open_]}, 5.0, {}).set_index(["claim", "pressure_MPa"]).loc["C6", EVERY]
+    )
+    assert (row["verdict"], row["value"]) == (HOLDS, 0.5)
+
+
 def test_evidence_names_its_quantity() -> None:
     table = evidence_table(EVIDENCE)
     assert len(table) == 8

@@ -8,7 +8,7 @@ from rubfric.atomic import whole
 from rubfric.claimspage import claims_page
 from rubfric.collection import read
 from rubfric.dataset import load
-from rubfric.evidence import depth_evidence, gather, march_evidence
+from rubfric.evidence import depth_evidence, gather, march_evidence, march_note
 from rubfric.judgement import EVERY, claims_table, evidence_table
 from rubfric.observation import among, over_axes, profile_row, refusals, table
 from rubfric.readings import AS_CONFIGURED
@@ -49,7 +49,7 @@ def main(
             *(march_evidence(load(path), choice["saturation"]) for path in marches),
         ]
     }
-    notes: dict[str, dict[str, str]] = {}
+    notes = {AS_CONFIGURED: {"C5": march_note(evidence[AS_CONFIGURED])}}
     for reading, paths in readings.items():
         rows = pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
         evidence[reading] = [
