@@ -50,12 +50,19 @@ rule all:
         rules.march_figure.output,
 
 
+if workflow.is_main_process:
+    RUN_LOG = follow(workflow)
+
+
 onstart:
     jobs.warm_up()
     check_folder(RESULTS)
+    RUN_LOG.begin()
 
 
 onsuccess:
-    print(
-        f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes."
-    )
+    RUN_LOG.succeed()
+
+
+onerror:
+    RUN_LOG.fail()

@@ -46,8 +46,8 @@ FLOORS = [
     {"figures"},
     {"campaign", "verdict"},
     {"trials", "extremes", "sources"},
-    {"jobs", "warm", "cli", "trial", "records"},
-    {"stability"},
+    {"jobs", "warm", "cli", "trial", "records", "progress", "findings"},
+    {"stability", "runlog"},
 ]
 MOST_LINES = 260
 

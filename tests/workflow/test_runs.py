@@ -74,7 +74,9 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
         assert len(re.findall(said, done.stderr, re.MULTILINE)) == 1
         log = project.results / "logs" / "scenes" / "zhou2019" / "zhou2019" / f"{name}.log"
         assert re.search(sentence + r"$", log.read_text())
-    assert "Finished jobid" in done.stderr
+    failed, made = len(fractions) - len(solved), len(solved)
+    assert f": {failed} failed; done: {made} scene" in done.stderr
+    assert len(re.findall(r"^  failed: scale\S+ \(log: \S+\.log\)$", done.stderr, re.MULTILINE)) == failed
     assert not list(project.results.rglob("*.part"))
 
 

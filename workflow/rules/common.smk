@@ -1,10 +1,15 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
 import hashlib
+import sys
 from dataclasses import asdict
+
+from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
 
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
+from rubfric.runlog import RunLog, attach
 from rubfric.sources import sources
 from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
@@ -37,3 +42,31 @@ def march_file(name):
 def fingerprint(words):
     """Return a short name for a list of words."""
     return hashlib.sha256(" ".join(words).encode()).hexdigest()[:16]
+
+
+def follow(workflow):
+    """Return the short log of this run, which follows Snakemake's own."""
+    output = workflow.output_settings
+    quiet = output.quiet or set()
+    stream = sys.stdout if output.stdout else sys.stderr
+    run = RunLog(
+        RESULTS,
+        targets=[rule.name for rule in workflow.rules if not rule.output],
+        tables=TABLES,
+        first=[
+            f"{RESULTS}/{path}"
+            for path in (
+                "claims.html",
+                "claims.md",
+                "tables/friction_total.csv",
+                "figures/fig6.png",
+                "explorer.html",
+                "report.html",
+            )
+        ],
+        dry=lambda: workflow.dryrun,
+        seconds=jobs.seconds,
+        stream=None if Quietness.ALL in quiet else stream,
+    )
+    attach(run, logger, silence=Quietness.RULES in quiet)
+    return run

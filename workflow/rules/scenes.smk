@@ -35,7 +35,7 @@ rule campaign:
     params:
         digests=DIGESTS,
     message:
-        "Collecting all scenes in {output}"
+        "Collecting all scenes"
     run:
         jobs.run(
             input.script,
