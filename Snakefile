@@ -16,6 +16,9 @@ min_version("9.0")
 configfile: "config/config.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 # In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
 try:
     CAMPAIGN = Campaign.from_config(config)
@@ -48,6 +51,17 @@ rule all:
         TABLES,
         FIGURES,
         rules.march_figure.output,
+
+
+# For the report, which runs nothing: the campaign, and what there is of accuracy and stability.
+rule everything:
+    input:
+        rules.all.input,
+        [
+            path
+            for path in [*rules.accuracy.input, *rules.stability.input]
+            if os.path.exists(path)
+        ],
 
 
 if workflow.is_main_process:

@@ -1,4 +1,4 @@
-"""What the tables of a campaign say at a glance: how many scenes carry a warning, and the largest error."""
+"""What the tables of a campaign say at a glance: the largest friction, the largest error, and how many warnings."""
 
 from __future__ import annotations
 
@@ -46,3 +46,20 @@ def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
     scale = os.path.splitext(os.path.basename(path))[0].rpartition("_")[2]
     height = f"height/width {row['aspect']}"
     return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa, {height}"
+
+
+def highest(path: str | os.PathLike[str]) -> str:
+    """Return in words where the table of all scales has its largest friction; empty where it is missing."""
+    try:
+        with open(path, encoding="utf-8", newline="") as stream:
+            rows = [row for row in csv.DictReader(stream) if row.get("friction_total")]
+    except OSError:
+        return ""
+    if not rows:
+        return ""
+    top = max(rows, key=lambda row: float(row["friction_total"]))
+    friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
+    return (
+        f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
+        f"and {float(top['pressure_MPa']):g} MPa"
+    )

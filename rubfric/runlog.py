@@ -129,7 +129,7 @@ class RunLog(logging.Handler):
         rule = about["rule_name"]
         if rule in self._targets:
             return
-        name = about["wildcards"].get("scene") or (about["rule_msg"] or rule).partition(": ")[0]
+        name = (about["rule_msg"] or rule).partition(": ")[0]
         if self._dry():
             self._would.append((rule, name))
         else:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from rubfric.findings import findings
+from rubfric.findings import findings, highest
 
 
 @pytest.fixture
@@ -53,3 +53,16 @@ def test_road_without_friction_has_no_largest_error(tables: list[Path]) -> None:
     flat = pd.read_csv(tables[0]).assign(friction_coefficient=0.0)
     flat.to_csv(tables[0], index=False)
     assert findings(tables[:1]) == ["none of 2 scenes carries a warning"]
+
+
+def test_highest_friction_is_told_with_its_error_and_place(tmp_path: Path) -> None:
+    table = tmp_path / "friction_total.csv"
+    table.write_text(
+        "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n"
+        "1,0.5,0.31,0.002\n10000,5,1.0411,0.00754\n100,5,,\n10,5,0.2,\n"
+    )
+    assert highest(table) == "at most 1.04 ± 0.008, at 10000 mm/s and 5 MPa"
+    table.write_text("velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n")
+    assert highest(table) == ""
+    table.unlink()
+    assert highest(table) == ""

@@ -18,7 +18,7 @@ WORKFLOW = PACKAGE.parent / "workflow"
 FLOORS = [
     {"errors", "arrays", "measured"},
     {"checks", "atomic"},
-    {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
+    {"tablepage", "material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
     {"folding", "cell", "finitestrain", "procedure", "saturation", "presets", "resolvable"},

@@ -32,8 +32,7 @@ class Snakemake:
         self.logger.info(message, extra=extra)
 
     def start(self, job: int, scene: str | None = None, rule: str = "scene", message: str | None = None) -> None:
-        wildcards = {"scene": scene} if scene else {}
-        about = {"rule_name": rule, "rule_msg": message, "wildcards": wildcards, "log": [f"logs/{job}.log"]}
+        about = {"rule_name": rule, "rule_msg": scene or message, "log": [f"logs/{job}.log"]}
         self.send("JOB_INFO", "job info", jobid=job, **about)
 
     def finish(self, job: int) -> None:
