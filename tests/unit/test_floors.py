@@ -18,7 +18,7 @@ WORKFLOW = PACKAGE.parent / "workflow"
 FLOORS = [
     {"errors", "arrays", "measured"},
     {"checks", "atomic"},
-    {"tablepage", "material", "road", "choices", "relaxation", "outcome", "checkpoint"},
+    {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
     {"folding", "cell", "finitestrain", "procedure", "saturation", "presets", "resolvable"},
@@ -40,13 +40,13 @@ FLOORS = [
     {"ladder", "calibration"},
     {"trade"},
     {"pages"},
-    {"multiscale"},
+    {"multiscale", "tablepage"},
     {"collection"},
     {"tables"},
     {"figures"},
     {"campaign", "verdict"},
     {"trials", "extremes", "sources"},
-    {"jobs", "warm", "cli", "trial", "records", "progress", "findings"},
+    {"jobs", "warm", "cli", "trial", "records", "progress", "findings", "configdoc"},
     {"stability", "runlog"},
 ]
 MOST_LINES = 260

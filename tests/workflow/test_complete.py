@@ -100,6 +100,10 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     assert not empty_project.results.exists()
 
 
+def test_workflow_is_found_where_tools_look_for_it(template: Project) -> None:
+    assert template.plan("-s", "workflow/Snakefile").jobs == {}
+
+
 def test_targets_ask_for_a_part(empty_project: Project) -> None:
     tables = empty_project.plan("tables").jobs
     assert tables == {"scene": 18, "campaign": 1, "scale_table": 4, "total_table": 1, "tables": 1}
