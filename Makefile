@@ -4,6 +4,8 @@
 # make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
 # make stability try the matrix of extremes, draw its map; writes its table of the README
+# make report    gather every figure and table with its caption in one page, results/report.html
+# make docs      write config/README.md and the picture of the architecture anew
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3
@@ -14,10 +16,20 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures test check bench accuracy stability format clean distclean
+.PHONY: figures report test check docs bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
+
+# Snakemake's report runs nothing: it shows what there is, of accuracy and stability too.
+report: figures
+	snakemake $(if $(CONFIG),--configfile $(CONFIG)) everything --report "$$(python -c \
+		'import sys; from rubfric.campaign import load; print(load(*sys.argv[1:]).results)' \
+		config/config.yaml $(CONFIG))/report.html"
+
+docs: $(VENV)/.ready
+	python -m rubfric.configdoc
+	python tests/unit/architecture.py
 
 test: $(VENV)/.ready
 	python -m pytest -n $(JOBS)

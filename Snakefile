@@ -16,6 +16,9 @@ min_version("9.0")
 configfile: "config/config.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 # In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
 try:
     CAMPAIGN = Campaign.from_config(config)
@@ -52,12 +55,30 @@ rule all:
         rules.claims.output,
 
 
+# For the report, which runs nothing: the campaign, and what there is of accuracy and stability.
+rule everything:
+    input:
+        rules.all.input,
+        [
+            path
+            for path in [*rules.accuracy.input, *rules.stability.input]
+            if os.path.exists(path)
+        ],
+
+
+if workflow.is_main_process:
+    RUN_LOG = follow(workflow)
+
+
 onstart:
     jobs.warm_up()
     check_folder(RESULTS)
+    RUN_LOG.begin()
 
 
 onsuccess:
-    print(
-        f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes."
-    )
+    RUN_LOG.succeed()
+
+
+onerror:
+    RUN_LOG.fail()

@@ -22,6 +22,7 @@ AXES: dict[str, tuple[str, str]] = {
     "aspect": ("1", "height of the block over its width"),
 }
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
+_WARNINGS = "warnings"
 
 # A result's place on the axes, its scalars, what it shares with its campaign, and its road.
 _Found = tuple[tuple[float, ...], dict[str, float], dict[str, str], dict[str, float]]
@@ -105,6 +106,7 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
             point = tuple(float(stored.getncattr(axis)) for axis in AXES)
             values = {name: float(stored[name][...]) for name in SCALARS}
+            values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
@@ -122,14 +124,15 @@ def _assemble(
 ) -> xr.Dataset:
     axes = {name: np.array(sorted({point[place] for point in points})) for place, name in enumerate(AXES)}
     shape = tuple(len(axis) for axis in axes.values())
-    arrays = {name: np.full(shape, np.nan) for name in SCALARS}
+    about_all = SCALARS | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
+    arrays = {name: np.full(shape, np.nan) for name in about_all}
     for point, values in points.items():
         index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), point, strict=True))
         for name, value in values.items():
             arrays[name][index] = value
     coordinates = {name: (name, axis, attributes(*AXES[name])) for name, axis in axes.items()}
     coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), attributes(*AXES["scale"]))
-    variables = {name: (tuple(AXES), array, attributes(*SCALARS[name])) for name, array in arrays.items()}
+    variables = {name: (tuple(AXES), array, attributes(*about_all[name])) for name, array in arrays.items()}
     for name, about in _ROAD.items():
         variables[name] = (
             ("scale",),

@@ -15,6 +15,7 @@ import runpy
 import signal
 import sys
 import threading
+import time
 import traceback
 import types
 from collections.abc import Callable, Iterator
@@ -30,6 +31,7 @@ from rubfric.errors import RubfricError
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _LOCK = threading.Lock()
 _IDLE: list[Connection] = []
+_SECONDS: dict[str, float] = {}
 
 
 class JobFailed(RubfricError, RuntimeError):
@@ -63,6 +65,7 @@ def run(script: str, log: str, **arguments: Any) -> None:
         Where ``main`` raised or its process died.
     """
     worker = _begin((script, log, arguments))
+    began = time.monotonic()
     try:
         failure = worker.recv()
     except (EOFError, OSError):
@@ -75,6 +78,12 @@ def run(script: str, log: str, **arguments: Any) -> None:
         raise JobFailed(f"{failure} (log: {log})")
     with _LOCK:
         _IDLE.append(worker)
+        _SECONDS[log] = time.monotonic() - began
+
+
+def seconds(log: str) -> float | None:
+    """Return how long the job with this log took here, s, without any wait for its process; None for no such job."""
+    return _SECONDS.get(log)
 
 
 def _begin(job: tuple[str, str, dict[str, Any]]) -> Connection:

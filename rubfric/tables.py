@@ -31,8 +31,9 @@ _COLUMNS = {
     "columns": "columns",
     "rows": "rows",
     "contact_nodes": "contact_nodes",
+    "warnings": "warnings",
 }
-_WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes")
+_WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes", "warnings")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 

@@ -33,7 +33,8 @@ def store(folder: Path, scale: int, velocity: float, pressure: float, friction: 
     point = {"scale": scale, "velocity": velocity, "pressure": pressure, "aspect": 0.75}
     values = dict.fromkeys(SCALARS, ((), 0.5)) | {"friction_coefficient": ((), friction)}
     path = folder / f"{len(list(folder.iterdir()))}.nc"
-    xr.Dataset(values, attrs=SHARED | ROAD[scale] | point | changes).to_netcdf(path)
+    attributes = {"warnings": ""} | SHARED | ROAD[scale] | point | changes
+    xr.Dataset(values, attrs=attributes).to_netcdf(path)
     return path
 
 
@@ -52,6 +53,12 @@ def test_values_stand_at_their_places_and_the_rest_is_nan(tmp_path: Path) -> Non
     assert int(friction.isnull().sum()) == 16 - 3
 
 
+def test_warnings_are_counted(tmp_path: Path) -> None:
+    texts = {1.0: "", 2.0: "One thing.", 3.0: "One thing.\nAnother."}
+    paths = [store(tmp_path, 1, velocity, 5.0, 0.3, warnings=text) for velocity, text in texts.items()]
+    assert collect(paths)["warnings"].values.ravel().tolist() == [0.0, 1.0, 2.0]
+
+
 def test_axes_are_sorted_whatever_the_order_of_files(tmp_path: Path, rng: np.random.Generator) -> None:
     points = [(scale, v, p) for scale in (1, 2) for v in (0.1, 10.0, 500.0, 2.0) for p in (5.0, 0.2)]
     paths = [store(tmp_path, *point, friction=number) for number, point in enumerate(points)]
@@ -67,7 +74,7 @@ def test_axes_are_sorted_whatever_the_order_of_files(tmp_path: Path, rng: np.ran
 def test_every_variable_has_a_unit_and_a_name(tmp_path: Path) -> None:
     campaign = collect([store(tmp_path, 1, 1.0, 1.0, 0.1)])
     assert set(campaign.coords) == set(AXES)
-    assert set(campaign.data_vars) == {*SCALARS, "amplitude", "wavenumber"}
+    assert set(campaign.data_vars) == {*SCALARS, "warnings", "amplitude", "wavenumber"}
     for name, variable in campaign.variables.items():
         assert variable.attrs["units"], name
         assert variable.attrs["long_name"], name

@@ -41,7 +41,7 @@ FLOORS = [
     {"ladder", "calibration"},
     {"trade"},
     {"pages"},
-    {"multiscale"},
+    {"multiscale", "tablepage"},
     {"collection"},
     {"tables"},
     {"observation"},
@@ -51,8 +51,8 @@ FLOORS = [
     {"figures"},
     {"campaign", "verdict"},
     {"trials", "extremes", "sources"},
-    {"jobs", "warm", "cli", "trial", "records"},
-    {"stability"},
+    {"jobs", "warm", "cli", "trial", "records", "progress", "findings", "configdoc"},
+    {"stability", "runlog"},
 ]
 MOST_LINES = 260
 

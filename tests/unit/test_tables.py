@@ -30,7 +30,7 @@ def campaign() -> xr.Dataset:
     friction = np.array([mu(*point) for point in product(*axes.values())]).reshape(shape)
     friction[:, :, 0, 0] = np.nan
     friction[1, :, :, 0] = np.nan
-    scalars = {name: (tuple(axes), np.where(np.isnan(friction), np.nan, 3.0)) for name in SCALARS}
+    scalars = {name: (tuple(axes), np.where(np.isnan(friction), np.nan, 3.0)) for name in (*SCALARS, "warnings")}
     scalars["friction_coefficient"] = (tuple(axes), friction)
     scalars["friction_coefficient_error"] = (tuple(axes), 0.01 * friction)
     return xr.Dataset(scalars, coords={name: list(axis) for name, axis in axes.items()})
@@ -58,6 +58,7 @@ def test_headings_name_units_where_there_are_any(campaign: xr.Dataset) -> None:
         "columns",
         "rows",
         "contact_nodes",
+        "warnings",
     ]
 
 
@@ -71,7 +72,7 @@ def test_scale_table_holds_every_scene_that_was_run(campaign: xr.Dataset) -> Non
 
 def test_counts_are_whole_numbers(campaign: xr.Dataset) -> None:
     table = scale_table(campaign, 1)
-    for name in ("meshes", "columns", "rows", "contact_nodes"):
+    for name in ("meshes", "columns", "rows", "contact_nodes", "warnings"):
         assert table[name].tolist() == [3] * 9
         assert table[name].dtype.kind == "i"
 

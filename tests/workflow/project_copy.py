@@ -109,7 +109,7 @@ class Project:
 
     def plan(self, *arguments: str) -> Plan:
         """Return what a run would do."""
-        done = self.snakemake("-n", *arguments)
+        done = self.snakemake("--quiet", "host", "-n", *arguments)  # every job by name
         assert done.returncode == 0, done.stderr
         return Plan.read(done.stdout + done.stderr)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -54,6 +55,18 @@ def test_every_job_has_a_log(template: Project) -> None:
         assert "\nfriction coefficient   " in path.read_text()
 
 
+def test_run_is_told_in_a_few_lines(template: Project) -> None:
+    lines = (template.results / "logs" / "run.log").read_text().splitlines()
+    assert "  18 of 18 scenes" in "\n".join(lines)
+    (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
+    assert lines[end].endswith(": 18 scenes, 1 march, 5 tables, 7 figures, 1 other job")
+    assert lines[end + 1].startswith("  slowest: scale")
+    assert lines[end + 2].startswith("  largest estimated error of friction ")
+    assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
+    assert lines[end + 4].startswith("  open first: results/minimal/tables/friction_total.csv")
+    assert end < 60
+
+
 def test_no_half_made_file_is_left(template: Project) -> None:
     assert not list(template.results.rglob(".*"))
     assert not list(template.results.rglob("*.part"))
@@ -68,7 +81,9 @@ def test_nothing_is_written_outside_the_folder_of_results(template: Project) -> 
 
 def test_second_run_does_nothing(project: Project) -> None:
     written = {path: path.stat().st_mtime_ns for path in project.results.rglob("*")}
-    assert "Nothing to be done" in project.run()
+    said = project.run()
+    assert "Nothing to be done" in said
+    assert "\n  tables are in results/minimal/tables, " in said
     assert {path: path.stat().st_mtime_ns for path in project.results.rglob("*")} == written
 
 
@@ -88,6 +103,18 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
     }
     assert plan.scenes == set(empty_project.campaign.scenes())
     assert plan.figures == FIGURES
+
+
+def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -> None:
+    done = empty_project.snakemake("-n")
+    assert done.returncode == 0
+    assert "  Would be made: 18 scenes, 1 march, 5 tables, 7 figures, 1 other job\n" in done.stdout
+    assert len((done.stdout + done.stderr).splitlines()) < 30
+    assert not empty_project.results.exists()
+
+
+def test_workflow_is_found_where_tools_look_for_it(template: Project) -> None:
+    assert template.plan("-s", "workflow/Snakefile").jobs == {}
 
 
 def test_targets_ask_for_a_part(empty_project: Project) -> None:

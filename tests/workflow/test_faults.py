@@ -77,11 +77,16 @@ def assert_same(project: Project, calm: Project) -> None:
     assert len(calm.tables) == 3
 
 
+def written(logs: Path) -> dict[Path, int]:
+    """Return when the logs of jobs were written."""
+    return {path: path.stat().st_mtime_ns for path in logs.rglob("*.log") if path.name != "run.log"}
+
+
 @contextlib.contextmanager
 def running(project: Project) -> Iterator[subprocess.Popen[bytes]]:
     """Run the campaign in the background, from its first job on, in a group of processes of its own."""
     logs = project.results / "logs"
-    before = {path: path.stat().st_mtime_ns for path in logs.rglob("*.log")}
+    before = written(logs)
     with (project.root / "said").open("wb") as said:
         process = subprocess.Popen(
             project.command(*TARGETS),
@@ -93,7 +98,7 @@ def running(project: Project) -> Iterator[subprocess.Popen[bytes]]:
         )
     try:
         deadline = time.monotonic() + PATIENCE
-        while all(before.get(path) == path.stat().st_mtime_ns for path in logs.rglob("*.log")):
+        while written(logs) == before:
             assert process.poll() is None, (project.root / "said").read_text()
             assert time.monotonic() < deadline
             time.sleep(0.005)

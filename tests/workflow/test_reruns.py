@@ -133,7 +133,7 @@ def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
 
 def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
     project.comment("rubfric/campaign.py", "rubfric/cli.py", "rubfric/summary.py", "rubfric/__init__.py")
-    project.comment("rubfric/jobs.py", "rubfric/warm.py", "rubfric/sources.py")
+    project.comment("rubfric/jobs.py", "rubfric/warm.py", "rubfric/sources.py", "rubfric/runlog.py")
     project.comment("README.md", "pyproject.toml", "tests/conftest.py", "workflow/profiles/default/config.yaml")
     project.comment("Snakefile", "workflow/schemas/config.schema.yaml", DEFAULT, "config/minimal.yaml")
     for rules in sorted((project.root / "workflow" / "rules").glob("*.smk")):

@@ -74,7 +74,9 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
         assert len(re.findall(said, done.stderr, re.MULTILINE)) == 1
         log = project.results / "logs" / "scenes" / "zhou2019" / "zhou2019" / f"{name}.log"
         assert re.search(sentence + r"$", log.read_text())
-    assert "Finished jobid" in done.stderr
+    told = re.findall(r"^  failed: (scale\S+) \(log: \S+\.log\)$", done.stderr, re.MULTILINE)
+    assert sorted(told) == sorted(set(fractions) - solved)
+    assert re.search(rf"^  Stopped after .*: \d+ failed; done: {len(solved)} scene", done.stderr, re.MULTILINE)
     assert not list(project.results.rglob("*.part"))
 
 

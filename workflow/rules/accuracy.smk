@@ -15,6 +15,10 @@ ACCURACY = {
         ("page", "md"),
     ]
 }
+ACCURACY_WORDS = {
+    "pareto": "error against cost, knob by knob",
+    "calibration": "estimated against true errors",
+}
 
 
 rule ladder:
@@ -80,7 +84,20 @@ rule accuracy_tables:
             batch=DRAWN_BATCHES,
         ),
     output:
-        **ACCURACY,
+        **{
+            name: (
+                report(
+                    path,
+                    caption="../report/accuracy_table.rst",
+                    category=REPORT.accuracy,
+                    subcategory="tables",
+                    labels={"table": name},
+                )
+                if path.endswith(".csv")
+                else path
+            )
+            for name, path in ACCURACY.items()
+        },
     log:
         f"{RESULTS}/logs/accuracy/tables.log",
     params:
@@ -106,8 +123,12 @@ rule accuracy_figure:
             {"pareto": "ladder"}.get(wildcards.figure, wildcards.figure)
         ],
     output:
-        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
-        png=f"{RESULTS}/figures/{{figure}}.png",
+        **pictures(
+            "{figure}",
+            "../report/accuracy_figure.rst",
+            lambda wildcards: ACCURACY_WORDS[wildcards.figure],
+            REPORT.accuracy,
+        ),
     log:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:

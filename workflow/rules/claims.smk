@@ -9,6 +9,15 @@ CLAIMS = {
     "evidence": f"{RESULTS}/tables/claims_evidence.csv",
     "page": f"{RESULTS}/claims.html",
 }
+JUDGED = {
+    "campaign": f"{RESULTS}/campaign.nc",
+    "profiles": [scene_file(name) for name in CAMPAIGN.field_scenes()],
+    "marches": MARCH_FILES,
+    "readings": {
+        name: [reading_file(name, batch) for batch in OBSERVED[name]]
+        for name in OBSERVED
+    },
+}
 
 
 rule reading:
@@ -38,14 +47,32 @@ rule claims:
     input:
         package_files("rubfric.claimspage", "rubfric.observation"),
         script="workflow/scripts/judge_claims.py",
-        campaign=rules.campaign.output[0],
-        profiles=[scene_file(name) for name in CAMPAIGN.field_scenes()],
-        marches=MARCH_FILES,
-        readings=[
-            reading_file(name, batch) for name in OBSERVED for batch in OBSERVED[name]
+        results=[
+            *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
+            *(path for paths in JUDGED["readings"].values() for path in paths),
         ],
     output:
-        **CLAIMS,
+        claims=report(
+            CLAIMS["claims"],
+            caption="../report/claims.rst",
+            category=REPORT.answers,
+            labels={
+                "answer": "what of the paper stands",
+                "in short": "",
+                "as": "spreadsheet (CSV)",
+            },
+        ),
+        evidence=CLAIMS["evidence"],
+        page=report(
+            CLAIMS["page"],
+            caption="../report/claims.rst",
+            category=REPORT.answers,
+            labels=lambda wildcards, output: {
+                "answer": "what of the paper stands",
+                "in short": verdicts(output.claims),
+                "as": "page",
+            },
+        ),
     log:
         f"{RESULTS}/logs/claims.log",
     params:
@@ -57,17 +84,4 @@ rule claims:
     message:
         "Judging the paper's claims: {output.page}"
     run:
-        jobs.run(
-            input.script,
-            log[0],
-            outputs=CLAIMS,
-            campaign=input.campaign,
-            profiles=list(input.profiles),
-            marches=list(input.marches),
-            readings={
-                name: [reading_file(name, batch) for batch in OBSERVED[name]]
-                for name in OBSERVED
-            },
-            choice=params.choice,
-            about=params.about,
-        )
+        jobs.run(input.script, log[0], outputs=CLAIMS, **JUDGED, **dict(params.items()))

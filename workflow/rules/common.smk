@@ -1,18 +1,34 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
 import hashlib
+import sys
+from types import SimpleNamespace
 from dataclasses import asdict
+
+from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
 
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
 from rubfric.checks import written
+from rubfric.findings import highest, verdicts
 from rubfric.readings import AS_CONFIGURED
+from rubfric.runlog import RunLog, attach
 from rubfric.sources import sources
 from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
+# Where things stand in the report, which sorts by name.
+REPORT = SimpleNamespace(
+    answers="1 Answers",
+    figures="2 Figures of the paper",
+    tables="3 Tables",
+    accuracy="4 Accuracy",
+    stability="5 Stability",
+    fields="6 Fields and data",
+)
 
 
 wildcard_constraints:
@@ -34,6 +50,32 @@ def scene_file(name):
 def march_file(name):
     """Return where the march of a scene belongs."""
     return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def pictures(figure, caption, shows, category=REPORT.figures):
+    """Return the outputs of a figure: vector graphics, and the picture, which the report shows first.
+
+    ``shows`` says in a few words what is seen, or is a function of the wildcards that does.
+    """
+
+    def labels(form):
+        def told(wildcards):
+            name = figure.format(**dict(wildcards.items()))
+            words = shows(wildcards) if callable(shows) else shows
+            return {"figure": name.replace("fig", "Fig. "), "shows": words, "as": form}
+
+        return told
+
+    return {
+        kind: report(
+            f"{RESULTS}/figures/{figure}.{kind}",
+            caption=caption,
+            category=category,
+            subcategory=None if category == REPORT.figures else "figures",
+            labels=labels(form),
+        )
+        for kind, form in (("pdf", "print (PDF)"), ("png", "picture (PNG)"))
+    }
 
 
 def fingerprint(words):
@@ -71,3 +113,30 @@ def judged_by(campaign):
         "saturation": campaign.transient.saturation,
         "total_pressure": fields.total_pressure,
     }
+
+
+def follow(workflow):
+    """Return the short log of this run, which follows Snakemake's own."""
+    output = workflow.output_settings
+    quiet = output.quiet or set()
+    stream = sys.stdout if output.stdout else sys.stderr
+    run = RunLog(
+        RESULTS,
+        targets=[rule.name for rule in workflow.rules if not rule.output],
+        tables=TABLES,
+        first=[
+            f"{RESULTS}/{path}"
+            for path in (
+                "claims.html",
+                "tables/friction_total.csv",
+                "figures/fig6.png",
+                "explorer.html",
+                "report.html",
+            )
+        ],
+        dry=lambda: workflow.dryrun,
+        seconds=jobs.seconds,
+        stream=None if Quietness.ALL in quiet else stream,
+    )
+    attach(run, logger, silence=Quietness.RULES in quiet)
+    return run

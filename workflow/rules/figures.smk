@@ -11,6 +11,14 @@ CAMPAIGN_FIGURES = {
     "fig7": {"aspect": CAMPAIGN.aspect, "pressure": CAMPAIGN.figures.total_pressure},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
+FIGURE_WORDS = {
+    "fig1": "friction over speed, by height-to-width ratio",
+    "fig2": "strain energy over the height",
+    "fig3": "friction over the height-to-width ratio",
+    "fig4": "the deformed block",
+    "fig6": "friction over speed and pressure",
+    "fig7": "friction of the whole road",
+}
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
     for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES])
@@ -24,8 +32,11 @@ rule campaign_figure:
         script="workflow/scripts/draw_figure.py",
         results=rules.campaign.output[0],
     output:
-        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
-        png=f"{RESULTS}/figures/{{figure}}.png",
+        **pictures(
+            "{figure}",
+            "../report/campaign_figure.rst",
+            lambda wildcards: FIGURE_WORDS[wildcards.figure],
+        ),
     log:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
@@ -51,8 +62,11 @@ rule field_figure:
         script="workflow/scripts/draw_figure.py",
         results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
     output:
-        pdf=f"{RESULTS}/figures/{{figure}}.pdf",
-        png=f"{RESULTS}/figures/{{figure}}.png",
+        **pictures(
+            "{figure}",
+            "../report/field_figure.rst",
+            lambda wildcards: FIGURE_WORDS[wildcards.figure],
+        ),
     log:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:

@@ -27,7 +27,12 @@ rule campaign:
         script="workflow/scripts/collect_campaign.py",
         scenes=SCENE_FILES,
     output:
-        f"{RESULTS}/campaign.nc",
+        report(
+            f"{RESULTS}/campaign.nc",
+            caption="../report/campaign.rst",
+            category=REPORT.fields,
+            labels={"data": "scalars of every scene (netCDF)"},
+        ),
         # Other scenes, another name: the collection is checked anew even where Snakemake has lost its memory.
         mark=f"{RESULTS}/collected/{fingerprint(DIGESTS)}",
     log:
@@ -35,7 +40,7 @@ rule campaign:
     params:
         digests=DIGESTS,
     message:
-        "Collecting all scenes in {output}"
+        "Collecting all scenes"
     run:
         jobs.run(
             input.script,

@@ -32,7 +32,13 @@ rule stability_table:
         script="workflow/scripts/tabulate_stability.py",
         batches=[f"{STABILITY}/batches/{batch}.csv" for batch in BATCHES],
     output:
-        table=f"{RESULTS}/stability/stability.csv",
+        table=report(
+            f"{RESULTS}/stability/stability.csv",
+            caption="../report/stability_table.rst",
+            category=REPORT.stability,
+            subcategory="tables",
+            labels={"table": "every case"},
+        ),
         page=f"{RESULTS}/stability/stability.md",
     log:
         f"{RESULTS}/logs/stability/table.log",
@@ -54,8 +60,12 @@ rule stability_figure:
         script="workflow/scripts/draw_stability.py",
         table=rules.stability_table.output.table,
     output:
-        pdf=f"{RESULTS}/figures/stability.pdf",
-        png=f"{RESULTS}/figures/stability.png",
+        **pictures(
+            "stability",
+            "../report/stability.rst",
+            "what becomes of every case",
+            REPORT.stability,
+        ),
     log:
         f"{RESULTS}/logs/figures/stability.log",
     message:

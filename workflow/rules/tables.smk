@@ -7,20 +7,32 @@ TABLES = [
 
 rule scale_table:
     input:
-        package_files("rubfric.tables"),
+        package_files("rubfric.tables", "rubfric.tablepage"),
         script="workflow/scripts/tabulate_scale.py",
         campaign=rules.campaign.output[0],
     output:
-        f"{RESULTS}/tables/friction_scale_{{scale}}.csv",
+        table=report(
+            f"{RESULTS}/tables/friction_scale_{{scale}}.csv",
+            caption="../report/scale_table.rst",
+            category=REPORT.tables,
+            labels={"table": "friction on scale {scale}", "as": "spreadsheet (CSV)"},
+        ),
+        page=report(
+            f"{RESULTS}/tables/friction_scale_{{scale}}.html",
+            caption="../report/scale_table.rst",
+            category=REPORT.tables,
+            labels={"table": "friction on scale {scale}", "as": "page"},
+        ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
     message:
-        "Friction on scale {wildcards.scale}: {output}"
+        "Friction on scale {wildcards.scale}: {output.table}"
     run:
         jobs.run(
             input.script,
             log[0],
-            output=output[0],
+            output=output.table,
+            page=output.page,
             campaign=input.campaign,
             scale=int(wildcards.scale),
         )
@@ -28,22 +40,42 @@ rule scale_table:
 
 rule total_table:
     input:
-        package_files("rubfric.tables"),
+        package_files("rubfric.tables", "rubfric.tablepage"),
         script="workflow/scripts/tabulate_total.py",
         campaign=rules.campaign.output[0],
     output:
-        f"{RESULTS}/tables/friction_total.csv",
+        table=report(
+            f"{RESULTS}/tables/friction_total.csv",
+            caption="../report/total_table.rst",
+            category=REPORT.answers,
+            labels=lambda wildcards, output: {
+                "answer": "friction of all scales",
+                "in short": highest(output.table),
+                "as": "spreadsheet (CSV)",
+            },
+        ),
+        page=report(
+            f"{RESULTS}/tables/friction_total.html",
+            caption="../report/total_table.rst",
+            category=REPORT.answers,
+            labels=lambda wildcards, output: {
+                "answer": "friction of all scales",
+                "in short": highest(output.table),
+                "as": "page",
+            },
+        ),
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
     params:
         aspect=CAMPAIGN.aspect,
     message:
-        "Friction of all scales: {output}"
+        "Friction of all scales: {output.table}"
     run:
         jobs.run(
             input.script,
             log[0],
-            output=output[0],
+            output=output.table,
+            page=output.page,
             campaign=input.campaign,
             aspect=params.aspect,
         )

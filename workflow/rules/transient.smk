@@ -17,7 +17,7 @@ rule march:
         procedure=CAMPAIGN.transient.procedure(),
         version=rubfric.__version__,
     message:
-        "March of {wildcards.scene}"
+        "march of {wildcards.scene}"
     run:
         jobs.run(
             input.script,
@@ -39,8 +39,7 @@ rule march_figure:
         script="workflow/scripts/draw_figure.py",
         results=MARCH_FILES,
     output:
-        pdf=f"{RESULTS}/figures/fig5.pdf",
-        png=f"{RESULTS}/figures/fig5.png",
+        **pictures("fig5", "../report/fig5.rst", "friction settling in time"),
     log:
         f"{RESULTS}/logs/figures/fig5.log",
     params:

@@ -1,9 +1,19 @@
 """Write the table of one scale."""
 
 from rubfric.collection import read
+from rubfric.tablepage import table_page, write_page
 from rubfric.tables import scale_table, write_table
 
 
-def main(output: str, campaign: str, scale: int) -> None:
-    """Write all scenes of ``scale`` in the campaign's file to the CSV file ``output``."""
-    write_table(scale_table(read(campaign), scale), output)
+def main(output: str, page: str, campaign: str, scale: int) -> None:
+    """Write all scenes of ``scale`` in the campaign's file to the CSV file ``output`` and the HTML file ``page``."""
+    gathered = read(campaign)
+    table = scale_table(gathered, scale)
+    write_table(table, output)
+    amplitude, wavenumber = (float(gathered[name].sel(scale=scale)) for name in ("amplitude", "wavenumber"))
+    words = (
+        f"Every scene on the scale of {amplitude:g} mm amplitude and {wavenumber:g}/mm wavenumber, a row each. "
+        "Friction by three routes, its estimated absolute error, and what the scene rests on; warnings counts what "
+        "its log tells to know before trusting it."
+    )
+    write_page(table_page(table, f"Friction on scale {scale}", words, group="pressure_MPa"), page)

@@ -1,9 +1,16 @@
 """Write the table of all scales and their sum."""
 
 from rubfric.collection import read
+from rubfric.tablepage import table_page, write_page
 from rubfric.tables import total_table, write_table
 
 
-def main(output: str, campaign: str, aspect: float) -> None:
-    """Write the friction of each scale and their sum at one height-to-width ratio to the CSV file ``output``."""
-    write_table(total_table(read(campaign), aspect), output)
+def main(output: str, page: str, campaign: str, aspect: float) -> None:
+    """Write the friction of each scale and their sum at one height-to-width ratio to ``output`` (CSV) and ``page``."""
+    table = total_table(read(campaign), aspect)
+    write_table(table, output)
+    words = (
+        f"Friction of every scale and their sum, for blocks {aspect:g} times as high as wide. The error of the sum "
+        "adds those of the scales, since one rule makes all their meshes; it is absolute."
+    )
+    write_page(table_page(table, "Friction of all scales", words, group="pressure_MPa"), page)

@@ -1,0 +1,120 @@
+"""The report in a browser, from a file: what it shows, and that it fetches nothing."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from project_copy import Project
+from selenium.webdriver.common.by import By
+from selenium.webdriver.remote.webdriver import WebDriver
+from selenium.webdriver.remote.webelement import WebElement
+from selenium.webdriver.support.ui import WebDriverWait
+
+PATIENCE = 20.0  # s
+CATEGORIES = {"1 Answers": 1, "2 Figures of the paper": 7, "3 Tables": 4, "6 Fields and data": 1}
+# What Snakemake's own page says to itself.
+TAILWIND = "cdn.tailwindcss.com should not be used in production"
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of the minimal campaign."""
+    project = Project.from_source(tmp_path_factory.mktemp("report"))
+    project.run()
+    path = project.results / "report.html"
+    project.run("everything", "--report", str(path))
+    return path
+
+
+@pytest.fixture
+def page(browser: WebDriver, report: Path) -> Iterator[WebDriver]:
+    """The report, open; afterwards it must have fetched nothing and complained of nothing."""
+    browser.set_window_size(1400, 900)
+    for kind in ("browser", "performance"):
+        browser.get_log(kind)
+    browser.get(report.as_uri())
+    wait_for(browser, "#app nav li")
+    yield browser
+    requests = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    urls = [about["params"]["request"]["url"] for about in requests if about["method"] == "Network.requestWillBeSent"]
+    assert report.as_uri() in urls
+    assert not [url[:80] for url in urls if not url.startswith(("file:", "data:", "blob:", "chrome"))]
+    told = [entry for entry in browser.get_log("browser") if entry["level"] in ("WARNING", "SEVERE")]
+    assert not [entry["message"] for entry in told if TAILWIND not in entry["message"]]
+
+
+def wait_for(page: WebDriver, selector: str) -> WebElement:
+    return WebDriverWait(page, PATIENCE).until(lambda page: page.find_element(By.CSS_SELECTOR, selector))
+
+
+def choose(page: WebDriver, words: str) -> None:
+    """Click the entry of the menu with these words."""
+    entry = next(entry for entry in page.find_elements(By.CSS_SELECTOR, "#app nav li a") if entry.text.strip() == words)
+    entry.click()
+
+
+def rows(page: WebDriver) -> list[WebElement]:
+    return page.find_elements(By.CSS_SELECTOR, "#app nav tbody tr")
+
+
+def buttons(row: WebElement) -> tuple[WebElement, WebElement]:
+    """Return the buttons of a row that open the result and its caption."""
+    eye, info = row.find_elements(By.CSS_SELECTOR, "td:last-child a")
+    return eye, info
+
+
+def test_front_page_says_what_was_run_from_its_top_on(page: WebDriver) -> None:
+    title = wait_for(page, "#app h1.title")
+    assert title.text == "Friction of zhou2019 rubber on the zhou2019 road"
+    assert title.rect["y"] >= 0
+    text = page.find_element(By.CSS_SELECTOR, "#app .prose").text
+    assert "Friction of the whole road: at most 1.0" in text
+    assert "Every scale at 1, 100 mm/s and 0.5, 5 MPa" in text
+    assert "accuracy of 1.0 %" in text
+    assert "System Message" not in text
+
+
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_every_result_opens_and_has_its_caption(page: WebDriver, category: str) -> None:
+    menu = [entry.text for entry in page.find_elements(By.CSS_SELECTOR, "#app nav li") if entry.text[:1].isdigit()]
+    assert menu == list(CATEGORIES)
+    choose(page, category)
+    wait_for(page, "#app nav tbody tr")
+    count = len(rows(page))
+    assert count == CATEGORIES[category]
+    captions = set()
+    for number in range(count):
+        eye, info = buttons(rows(page)[number])
+        if not eye.get_attribute("download"):
+            eye.click()
+            opened = wait_for(page, "#app .grow img, #app .grow iframe")
+            assert opened.size["width"] > 500
+        _, info = buttons(rows(page)[number])
+        info.click()
+        captions.add(wait_for(page, "#app nav .prose").text)
+        page.find_element(By.CSS_SELECTOR, "#app nav ol").find_element(By.XPATH, f".//*[text()='{category}']").click()
+        wait_for(page, "#app nav tbody tr")
+    assert len(captions) == count
+    assert min(len(caption) for caption in captions) > 60
+
+
+def test_pictures_come_first_and_tables_can_be_read(page: WebDriver) -> None:
+    choose(page, "2 Figures of the paper")
+    wait_for(page, "#app nav tbody tr")
+    assert [row.text.split()[1] for row in rows(page)] == ["1", "2", "3", "4", "5", "6", "7"]
+    buttons(rows(page)[5])[0].click()
+    picture = wait_for(page, "#app .grow img")
+    assert str(picture.get_attribute("src")).startswith("data:image/png")
+    assert page.execute_script("return arguments[0].naturalWidth", picture) > 1000
+    page.find_element(By.CSS_SELECTOR, "#app nav ol a").click()
+    WebDriverWait(page, PATIENCE).until(lambda page: "1 Answers" in page.find_element(By.CSS_SELECTOR, "#app nav").text)
+    choose(page, "1 Answers")
+    wait_for(page, "#app nav tbody tr")
+    buttons(rows(page)[0])[0].click()
+    page.switch_to.frame(wait_for(page, "#app .grow iframe"))
+    assert wait_for(page, "h1").text == "Friction of all scales"
+    assert len(page.find_elements(By.CSS_SELECTOR, "tbody tr")) == 4
+    page.switch_to.default_content()
