@@ -35,6 +35,7 @@ include: "workflow/rules/scenes.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
+include: "workflow/rules/explorer.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/stability.smk"
 
@@ -48,6 +49,7 @@ rule all:
         TABLES,
         FIGURES,
         rules.march_figure.output,
+        rules.explorer.output,
 
 
 onstart:
