@@ -118,7 +118,7 @@ function paintSmall(picture, scale, frame, width, colours, energies) {
   trace([frame.left, ...road.x, frame.right], [frame.bottom, ...road.y, frame.bottom]);
   pen.fillStyle = ROAD;
   pen.fill();
-  pen.lineWidth = 1;
+  pen.lineWidth = 2.5;
   for (const row of [0, picture.rows - 1]) {
     const nodes = row * picture.columns;
     pen.beginPath();
@@ -127,7 +127,7 @@ function paintSmall(picture, scale, frame, width, colours, energies) {
     pen.stroke();
   }
   pen.strokeStyle = TOUCH;
-  pen.lineWidth = 4;
+  pen.lineWidth = 8;
   pen.lineCap = "round";
   const { x, y } = contactLine(picture, scale);
   pen.beginPath();
@@ -162,7 +162,7 @@ function netLines(picture) {
   return { x, y };
 }
 
-/** Ticks of a logarithmic colour bar: 1, 2 and 5, or powers of ten, times a power of ten. */
+/** Numbers within a range of decimal logarithms: powers of ten, or also twice and five times those. */
 function decades([low, high]) {
   const fine = high - low < 2.2 ? [1, 2, 5] : [1];
   const ticks = [];
@@ -172,18 +172,18 @@ function decades([low, high]) {
       if (Math.log10(value) >= low - 1e-9 && Math.log10(value) <= high + 1e-9) ticks.push(value);
     }
   }
-  return { tickvals: ticks.map(Math.log10), ticktext: ticks.map(plain) };
+  return ticks;
 }
 
 /** Traces and layout of the plot of a block. */
-function blockPlot(picture, scale, frame, colours, energies, stops, width) {
+function blockPlot(picture, scale, frame, colours, energies, width) {
   const field = paintField(picture, frame, 1000, colours, energies);
   const road = roadLine(scale, frame);
   const face = (row) => ({
     x: Array.from(picture.x.subarray(row * picture.columns, (row + 1) * picture.columns)),
     y: Array.from(picture.y.subarray(row * picture.columns, (row + 1) * picture.columns)),
   });
-  const line = (points, look, more = {}) => ({ ...points, mode: "lines", line: look, hoverinfo: "skip", ...more });
+  const line = (points, look, more = {}) => ({ ...points, mode: "lines", line: { ...look, simplify: false }, hoverinfo: "skip", ...more });
   const touch = contactLine(picture, scale);
   const traces = [
     line(netLines(picture), { color: "rgba(255,255,255,0.55)", width: 1 }, { visible: picture.finite }),
@@ -194,14 +194,13 @@ function blockPlot(picture, scale, frame, colours, energies, stops, width) {
     ),
     line(face(0), { color: INK, width: 1.4 }),
     line(face(picture.rows - 1), { color: INK, width: 1.4 }),
-    { ...touch, mode: "lines+markers", line: { color: TOUCH, width: 5 }, marker: { color: TOUCH, size: 4 }, hoverinfo: "skip" },
+    { ...touch, mode: "lines+markers", line: { color: TOUCH, width: 5, simplify: false }, marker: { color: TOUCH, size: 4 }, hoverinfo: "skip" },
     hoverNodes(picture, frame),
     {
       x: Array.from(picture.touching), y: Array.from(picture.pressure), yaxis: "y2", mode: "lines", fill: "tozeroy",
-      line: { color: TOUCH, width: 1.5 }, fillcolor: "rgba(232,96,28,0.22)",
+      line: { color: TOUCH, width: 1.5, simplify: false }, fillcolor: "rgba(232,96,28,0.22)",
       hovertemplate: "contact pressure %{y:.3g} MPa<br>at %{x:.3g} mm<extra></extra>",
     },
-    colourBar(energies, stops),
   ];
   return { traces, layout: blockLayout(picture, frame, field, width) };
 }
@@ -221,24 +220,19 @@ function hoverNodes(picture, frame) {
   return { ...found, mode: "markers", marker: { opacity: 0, size: 8 }, hovertemplate: "strain energy %{text}<extra></extra>" };
 }
 
-function colourBar(energies, stops) {
-  const colorscale = stops.map((stop, place) => [place / (stops.length - 1), stop]);
-  const title = { text: "strain-energy density (MPa)", side: "top", font: { size: 12 } };
-  return {
-    x: [null], y: [null], mode: "markers", hoverinfo: "skip",
-    marker: {
-      color: [energies[0]], cmin: energies[0], cmax: energies[1], colorscale, showscale: true,
-      colorbar: {
-        orientation: "h", x: 0.5, xanchor: "center", y: 1, yanchor: "bottom", ypad: 4, len: 1, thickness: 9,
-        outlinewidth: 0, title, ...decades(energies), tickfont: { size: 11 }, ticks: "outside", ticklen: 3,
-      },
-    },
-  };
+/** The scale of energies: its colours, and numbers below them. */
+function energyScale([low, high], stops) {
+  const bar = element("div", { class: "bar", style: `background: linear-gradient(to right, ${stops.join(", ")})` });
+  const ticks = decades([low, high]).map((value) => {
+    const place = (100 * (Math.log10(value) - low)) / (high - low);
+    return element("span", { style: `left: ${place.toFixed(2)}%` }, plain(value));
+  });
+  return [element("div", { class: "quiet" }, "strain-energy density (MPa)"), bar, element("div", { class: "ticks" }, ...ticks)];
 }
 
 /** The block above, to scale, and the contact pressure below it, on the same abscissa. */
 function blockLayout(picture, frame, field, width) {
-  const margin = { l: 52, r: 10, t: 58, b: 40 };
+  const margin = { l: 60, r: 10, t: 8, b: 40 };
   const wide = Math.max(60, width - margin.l - margin.r);
   const tall = (wide * (frame.top - frame.bottom)) / (frame.right - frame.left);
   const [gap, profile] = [14, 70];
@@ -247,7 +241,7 @@ function blockLayout(picture, frame, field, width) {
   const title = (text) => ({ text, standoff: 6, font: { size: 12 } });
   return {
     ...LOOK, margin, height: inner + margin.t + margin.b, showlegend: false, hovermode: "closest", dragmode: ZOOMS ? "zoom" : false,
-    xaxis: { ...axis, range: [frame.left, frame.right], anchor: "y2", title: title("distance along the road (mm)"), nticks: 6, fixedrange: !ZOOMS },
+    xaxis: { ...axis, range: [frame.left, frame.right], anchor: "y2", title: title("distance along the road (mm)"), nticks: 6, fixedrange: !ZOOMS, constrain: "domain" },
     yaxis: {
       ...axis, range: [frame.bottom, frame.top], domain: [(profile + gap) / inner, 1], scaleanchor: "x", constrain: "domain",
       title: title("height (mm)"), nticks: 6, fixedrange: !ZOOMS,

@@ -64,6 +64,12 @@ function speedAxis(speeds) {
   };
 }
 
+/** Labels of places that stand for speeds; every other one where there is no room for all. */
+function speedLabels(speeds, width) {
+  const step = Math.ceil(38 / Math.max(1, (width - 90) / speeds.length));
+  return speeds.map((speed, place) => (place % step === 0 ? plain(speed) : ""));
+}
+
 /** Curves of friction against speed, one for each pressure, the chosen one on top. */
 function curvesPlot(data, chosen) {
   const curve = data.curves[chosen.place];
@@ -138,20 +144,20 @@ function mapPlot(data, chosen, width) {
   };
   const marks = { ...rings, mode: "markers", hoverinfo: "skip", marker: { symbol: "circle", size: 8, color: "#ffffff", line: { width: 1.8, color: "#1d2129" } } };
   const [x, y] = [chosen.speed, chosen.pressure];
-  const ticks = (places, values) => ({ tickvals: places, ticktext: values.map(plain), range: [-0.5, values.length - 0.5], showgrid: false, ticks: "" });
+  const ticks = (tickvals, ticktext) => ({ tickvals, ticktext, range: [-0.5, tickvals.length - 0.5], showgrid: false, ticks: "", tickangle: 0 });
   return {
     traces: [cells, marks],
     layout: {
       ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", dragmode: false,
-      xaxis: { ...AXIS, ...ticks(speeds, data.speeds), title: titled("sliding speed (mm/s)") },
-      yaxis: { ...AXIS, ...ticks(pressures, data.pressures), title: titled("nominal pressure (MPa)") },
+      xaxis: { ...AXIS, ...ticks(speeds, speedLabels(data.speeds, width - 50)), title: titled("sliding speed (mm/s)") },
+      yaxis: { ...AXIS, ...ticks(pressures, data.pressures.map(plain)), title: titled("nominal pressure (MPa)") },
       shapes: [{ type: "rect", x0: x - 0.49, x1: x + 0.49, y0: y - 0.49, y1: y + 0.49, line: { color: "#1d2129", width: 3 } }],
     },
   };
 }
 
 /** What each scale adds to the total, at every speed and the chosen pressure. */
-function barsPlot(data, chosen) {
+function barsPlot(data, chosen, width) {
   const places = data.speeds.map((_, place) => place);
   const total = data.curves.total;
   const opacity = places.map((place) => (place === chosen.speed ? 1 : 0.42));
@@ -177,7 +183,7 @@ function barsPlot(data, chosen) {
     layout: {
       ...LOOK, barmode: "stack", bargap: 0.28, height: 270, margin: { l: 52, r: 8, t: 26, b: 48 }, hovermode: "closest", dragmode: false,
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", traceorder: "normal", font: { size: 12 }, itemclick: false, itemdoubleclick: false },
-      xaxis: { ...AXIS, tickvals: places, ticktext: data.speeds.map(plain), ticks: "", range: [-0.6, places.length - 0.4], showgrid: false, title: titled("sliding speed (mm/s)") },
+      xaxis: { ...AXIS, tickvals: places, ticktext: speedLabels(data.speeds, width), tickangle: 0, ticks: "", range: [-0.6, places.length - 0.4], showgrid: false, title: titled("sliding speed (mm/s)") },
       yaxis: { ...AXIS, rangemode: "tozero", title: titled("friction coefficient μ"), tickformat: ".3~g" },
     },
   };

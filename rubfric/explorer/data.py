@@ -100,7 +100,7 @@ def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
-        grid = grid.isel({axis: np.flatnonzero(np.isfinite(grid[_FRICTION]).any(others).values)})
+        grid = grid.isel({axis: np.flatnonzero(grid[_FRICTION].notnull().any(others).values)})
     if not grid[_FRICTION].size:
         raise InvalidInput(f"the campaign holds no friction coefficient at the height-to-width ratio {aspect:g}")
     return grid
@@ -172,9 +172,7 @@ def _pictures(
     return store.packed(), [min(float(np.percentile(low, _FAINTEST)) if low else -3.0, top - _LENGTH), top]
 
 
-def _found(
-    result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float
-) -> dict[str, Any]:
+def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float) -> dict[str, Any]:
     """Return the scene of a result."""
     wanted = {"scale": "scale", "pressure": "pressure", "velocity": "velocity"}
     places = [np.flatnonzero(axes[axis] == result.attrs[name]) for axis, name in wanted.items()]

@@ -75,7 +75,7 @@ function swatch(pressure) {
 function makeControls() {
   for (const place of places) {
     const scale = data.scales.find(({ number }) => String(number) === place);
-    const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength)}${THIN}mm`)] : ["All scales"];
+    const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength, 2)}${THIN}mm`)] : ["All scales"];
     byId("places").append(option("place", place, ...label));
   }
   byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
@@ -113,10 +113,10 @@ function placeName(place) { return place === "total" ? "All scales" : `Scale ${p
 function sceneName() { return `${speedOf(data.speeds[chosen.speed])}, ${pressureOf(data.pressures[chosen.pressure])}`; }
 
 function showAbout() {
-  const { road, plane, kinematics, accuracy, aspect, source, references } = data.about;
+  const { plane, kinematics, accuracy, aspect, source, references } = data.about;
   const scales = data.scales.length === 1 ? "one scale" : `${data.scales.length} scales`;
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
-  byId("about").textContent = `Road ${road}: ${scales}. Block ${plain(aspect)} times as high as wide, plane ${plane}, ` +
+  byId("about").textContent = `Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
   byId("footer").textContent = `${source}. After ${references}. ± is the estimated error; of all scales, the sum of theirs.`;
 }
@@ -127,8 +127,10 @@ function showWords() {
   const friction = curve.friction[pressure][speed], error = curve.error[pressure][speed];
   const share = relative(friction, error);
   byId("chart-title").textContent = `${placeName(place)}: friction ` + (chosen.view === "map" ? "over speed and pressure" : "against speed");
-  byId("peak").textContent = `At ${pressureOf(data.pressures[pressure])}: ${peakWords(curve, pressure, data.speeds)}`;
+  byId("peak").textContent = peakWords(curve, pressure, data.pressures, data.speeds);
+  byId("marks").textContent = marksWords(curve, chosen.view);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
+  byId("told-title").textContent = place === "total" ? "What the scales add up to" : "The numbers of this scene";
   byId("headline").replaceChildren(friction === null ? "Not run" : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
   byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}`;
   const keys = "Left and right arrows choose the speed, up and down arrows the pressure.";
@@ -152,7 +154,7 @@ function showSceneNumbers(scene) {
     entry("Largest contact pressure", pressureOf(Number(scene.largest.toPrecision(3))), local),
     entry("Nominal compression", percent(scene.compression), "on a flat road"),
     entry("Mesh", `${plain(scene.columns)} × ${plain(scene.rows)} cells`),
-    entry("Kinematics", scene.finite ? "Finite strain." : "Small strain.", scene.reason ? sentence(scene.reason) : "", true),
+    entry(`Kinematics: ${scene.finite ? "finite" : "small"} strain`, scene.reason ? sentence(scene.reason) : "", "", true),
   ));
 }
 
@@ -202,6 +204,7 @@ function showScene(place) {
   const scene = data.scenes[place][chosen.pressure][chosen.speed];
   const picture = pictureOf(scene);
   byId("small-pictures").replaceChildren();
+  byId("energies").replaceChildren(...(picture ? energyScale(data.energies, data.colours.energy) : []));
   byId("picture").hidden = !picture;
   byId("caption").replaceChildren();
   byId("numbers").replaceChildren();
@@ -215,7 +218,7 @@ function showScene(place) {
   byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below. ${how}`,
     element("span", { class: "fine" }, hint));
   byId("picture").setAttribute("aria-label", `The deformed block on ${placeName(place).toLowerCase()} at ${sceneName()}, in contact on ${percent(scene.contact)} of its area.`);
-  const plot = blockPlot(picture, scale, frame(scale), colours, data.energies, data.colours.energy, byId("picture").clientWidth);
+  const plot = blockPlot(picture, scale, frame(scale), colours, data.energies, byId("picture").clientWidth);
   return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
 }
 
@@ -233,12 +236,13 @@ function smallPicture({ number }, order) {
 function showTotal() {
   const scenes = data.scales.map(({ number }) => [number, data.scenes[number][chosen.pressure][chosen.speed]]);
   byId("small-pictures").replaceChildren(...data.scales.map(smallPicture));
-  byId("caption").textContent = "Bars: what each scale adds at this pressure, with the error of the sum. Pictures: the block on each scale, each in its own size.";
+  byId("energies").replaceChildren();
+  byId("caption").textContent = "Bars: what each scale adds at this pressure, with the error of the sum. Pictures: the block on each scale, each in its own size, brighter where more energy is stored.";
   showTotalNumbers();
   showWarnings(scenes);
   byId("picture").hidden = false;
   byId("picture").setAttribute("aria-label", `Friction of each scale against speed at ${pressureOf(data.pressures[chosen.pressure])}, stacked; the table below has the numbers.`);
-  const plot = barsPlot(data, chosen);
+  const plot = barsPlot(data, chosen, byId("picture").clientWidth);
   return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
 }
 

@@ -19,7 +19,7 @@ def page(payload: dict[str, Any]) -> str:
     template = Template(TEMPLATE.read_text(encoding="utf-8"))
     about = payload["about"]
     return template.substitute(
-        title=html.escape(f"Friction of {about['rubber']} on {about['road']}"),
+        title=html.escape(f"Friction of rubber {about['rubber']} on road {about['road']}"),
         style=STYLE.read_text(encoding="utf-8"),
         library=get_plotlyjs(),
         payload=_embedded(payload),

@@ -36,8 +36,8 @@ class Picture:
     ----------
     about : dict
         ``finite``; ``rows`` and ``columns`` of nodes; ``net``, the numbers of points of its lines; ``touching``, the
-        number of points of the contact; ``faint``, below which the faintest of the energies lie. ``x``, ``y`` (mm), ``energy`` (decimal logarithm of MPa) and
-        ``pressure`` (MPa): lowest and highest value of each.
+        number of points of the contact; ``faint``, below which the faintest of the energies lie. ``x``, ``y`` (mm),
+        ``energy`` (decimal logarithm of MPa) and ``pressure`` (MPa): lowest and highest value of each.
     values : numpy.ndarray of uint16
         Abscissae, heights and energies of the nodes, row by row; abscissae and heights of the net; abscissae and
         pressures of the contact; 0 for the lowest and ``STEPS`` for the highest.

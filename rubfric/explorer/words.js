@@ -70,23 +70,37 @@ function element(name, attributes = {}, ...children) {
 
 function byId(id) { return document.getElementById(id); }
 
-/** What is known of a curve's peak, in words. */
-function peakWords(curve, pressure, speeds) {
+/** What is known of the peak of a curve at one pressure, in words. */
+function peakWords(curve, pressure, pressures, speeds) {
   const { kind, at, between, missing } = curve.peaks[pressure];
-  if (kind === "none") return "Nothing was run at this pressure.";
+  const here = `At ${pressureOf(pressures[pressure])}`;
+  if (kind === "none") return `${here} nothing was run.`;
   const highest = measured(curve.friction[pressure][at], curve.error[pressure][at]);
   const there = speedOf(speeds[at]);
   const gaps = missing ? ` ${missing} of ${speeds.length} speeds were not run.` : "";
   const said = {
     peak: () => {
       const [low, high] = between.map((place) => plain(speeds[place]));
-      return `Peak ${highest} at ${there}, the highest of the speeds run; ` +
+      return `${here} the peak is ${highest} at ${there}, the highest of the speeds run; ` +
         `if the curve has a single peak, it lies between ${low} and ${high}${THIN}mm/s.`;
     },
-    rising: () => `No peak: friction is still rising at ${there}, the fastest speed run (${highest}).`,
-    falling: () => `No peak: friction is highest at ${there}, the slowest speed run (${highest}).`,
-    level: () => `No peak can be named: the highest, ${highest} at ${there}, cannot be told from an end of the curve.`,
-    few: () => `Too few speeds to name a peak; the highest is ${highest} at ${there}.`,
+    rising: () => `${here} there is no peak: friction is still rising at ${there}, the fastest speed run (${highest}).`,
+    falling: () => `${here} there is no peak: friction is highest at ${there}, the slowest speed run (${highest}).`,
+    level: () => `${here} no peak can be named: the highest, ${highest} at ${there}, cannot be told from an end of the curve.`,
+    few: () => `${here} there are too few speeds to name a peak; the highest is ${highest} at ${there}.`,
   };
   return said[kind]() + gaps;
+}
+
+/** What the marks of a chart mean, and how large the errors are. */
+function marksWords(curve, view) {
+  const shares = curve.friction.flatMap((row, pressure) => row.map((friction, speed) => {
+    const error = curve.error[pressure][speed];
+    return friction && error !== null ? Math.abs(error / friction) : 0;
+  }));
+  const largest = Math.max(...shares);
+  const rings = curve.peaks.some(({ kind }) => kind === "peak");
+  const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
+  const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
+  return [rings ? mark : "", error].filter(Boolean).join(" ");
 }

@@ -14,7 +14,7 @@ from selenium.webdriver.remote.webdriver import WebDriver
 from selenium.webdriver.support.ui import WebDriverWait
 
 CHROMIUM, CHROMEDRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
-MISSING = f"There is no {{}}: apt-get install chromium chromium-driver (as root) puts {CHROMIUM} and its driver there."
+MISSING = "There is no {}: apt-get install chromium chromium-driver, as root, puts it there."
 # Nothing of the browser's own may reach for the network, so that what does was asked for by the page.
 _QUIET = (
     *("--headless=new", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
@@ -25,11 +25,13 @@ _QUIET = (
 _OWN = ("file:", "data:", "blob:", "about:")
 
 
+def missing_program() -> str | None:
+    """Return the path of what is not installed, if anything."""
+    return next((program for program in (CHROMIUM, CHROMEDRIVER) if shutil.which(program) is None), None)
+
+
 def start(profile: Path) -> WebDriver:
     """Start Chromium with an empty profile, logging its console and what it loads."""
-    for program in (CHROMIUM, CHROMEDRIVER):
-        if shutil.which(program) is None:
-            raise FileNotFoundError(MISSING.format(program))
     options = ChromeOptions()
     options.binary_location = CHROMIUM
     for argument in (*_QUIET, f"--user-data-dir={profile}"):
@@ -80,3 +82,74 @@ def settled(browser: WebDriver) -> str:
     """Wait until the page shows what its address says; return that."""
     script = "return document.body.dataset.shown === window.location.hash && window.location.hash"
     return str(WebDriverWait(browser, 20, poll_frequency=0.05).until(lambda _: browser.execute_script(script)))
+
+
+def choose(browser: WebDriver, name: str, value: str) -> None:
+    """Click the radio button of a name and a value."""
+    browser.execute_script(
+        "document.querySelector(`input[name=${arguments[0]}][value='${arguments[1]}']`).parentElement.click()",
+        name,
+        value,
+    )
+    settled(browser)
+
+
+def place(browser: WebDriver, plot: str, x: float, y: float) -> tuple[float, float]:
+    """Return where a point of a plot is on the screen, from its data."""
+    script = """
+    const plot = document.getElementById(arguments[0]);
+    plot.scrollIntoView({ block: "center" });
+    const box = plot.getBoundingClientRect(), { xaxis, yaxis } = plot._fullLayout;
+    return [box.left + xaxis._offset + xaxis.d2p(arguments[1]), box.top + yaxis._offset + yaxis.d2p(arguments[2])];
+    """
+    left, top = browser.execute_script(script, plot, x, y)
+    return left, top
+
+
+def point_at(browser: WebDriver, spot: tuple[float, float]) -> None:
+    """Move the mouse to a spot of the screen."""
+    browser.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": spot[0], "y": spot[1]})
+
+
+def hover_words(browser: WebDriver, plot: str, spot: tuple[float, float]) -> str:
+    """Return what a plot tells about a spot that the mouse points at."""
+    script = """
+    return [...document.querySelectorAll(`#${arguments[0]} .hovertext .nums`)].map((one) => one.textContent).join(" ");
+    """
+    wait = WebDriverWait(browser, 5, poll_frequency=0.05)
+    browser.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": 1, "y": 1})
+    wait.until(lambda _: not browser.execute_script(script, plot))
+    point_at(browser, spot)
+    return str(wait.until(lambda _: browser.execute_script(script, plot)))
+
+
+def click_at(browser: WebDriver, plot: str, spot: tuple[float, float]) -> None:
+    """Click on a spot of a plot that tells something, and wait until the page shows what was chosen."""
+    hover_words(browser, plot, spot)
+    before = settled(browser)
+    for kind in ("mousePressed", "mouseReleased"):
+        event = {"type": kind, "x": spot[0], "y": spot[1], "button": "left", "clickCount": 1}
+        browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+    WebDriverWait(browser, 5, poll_frequency=0.05).until(lambda _: settled(browser) != before)
+
+
+def show(browser: WebDriver, choice: str) -> None:
+    """Change what follows the # of the page's address, as a visitor may."""
+    browser.execute_script("window.location.hash = arguments[0]", choice)
+    settled(browser)
+
+
+def words(browser: WebDriver, id_: str) -> str:
+    """Return the text of an element, its narrow spaces made plain."""
+    return " ".join(str(browser.execute_script("return document.getElementById(arguments[0]).innerText", id_)).split())
+
+
+def traces(browser: WebDriver, plot: str) -> list[dict[str, Any]]:
+    """Return what a plot draws."""
+    script = """
+    const told = ["name", "type", "mode", "yaxis", "x", "y", "z", "line"];
+    return JSON.parse(JSON.stringify(document.getElementById(arguments[0]).data.map(
+      (trace) => Object.fromEntries(told.filter((key) => key in trace).map((key) => [key, trace[key]])))));
+    """
+    found: list[dict[str, Any]] = browser.execute_script(script, plot)
+    return found

@@ -11,7 +11,7 @@ import pytest
 from project_copy import Project
 
 TABLES = {"scale_table": 4, "total_table": 1}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, "explorer": 1}
 MARCHES = {"march": 1, "march_figure": 1}
 EVERYTHING = {"scene": 18, **CAMPAIGN, "field_figure": 2, **MARCHES}
 CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6", "fig7"}
@@ -123,8 +123,14 @@ def test_edited_tables_are_written_again_alone(project: Project) -> None:
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/multiscale.py")
     plan = project.plan()
-    assert plan.jobs == {**TABLES, "campaign_figure": 1}
+    assert plan.jobs == {**TABLES, "campaign_figure": 1, "explorer": 1}
     assert plan.figures == {"fig7"}
+
+
+@pytest.mark.parametrize("name", ["page.py", "explorer.js"])
+def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
+    project.comment(f"rubfric/explorer/{name}")
+    assert project.plan().jobs == {"explorer": 1}
 
 
 def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
