@@ -59,5 +59,6 @@ onstart:
 
 onsuccess:
     print(
-        f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes."
+        f"Done. Tables are in {RESULTS}/tables, figures in {RESULTS}/figures, fields in {RESULTS}/scenes; "
+        f"open {RESULTS}/explorer.html in a browser to look at all of it."
     )

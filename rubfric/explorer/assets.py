@@ -7,7 +7,7 @@ from pathlib import Path
 _FOLDER = Path(__file__).resolve().parent
 TEMPLATE, STYLE = _FOLDER / "template.html", _FOLDER / "explorer.css"
 # In the order in which the browser reads them.
-SCRIPTS = tuple(_FOLDER / f"{name}.js" for name in ("words", "blocks", "charts", "explorer"))
+SCRIPTS = tuple(_FOLDER / f"{name}.js" for name in ("words", "tables", "blocks", "charts", "explorer"))
 
 
 def assets() -> tuple[Path, ...]:

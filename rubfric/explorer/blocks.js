@@ -240,7 +240,7 @@ function blockLayout(picture, frame, field, width) {
   const axis = { zeroline: false, showgrid: false, ticks: "outside", ticklen: 4, tickcolor: "#b6b4ae", linecolor: "#b6b4ae" };
   const title = (text) => ({ text, standoff: 6, font: { size: 12 } });
   return {
-    ...LOOK, margin, height: inner + margin.t + margin.b, showlegend: false, hovermode: "closest", dragmode: ZOOMS ? "zoom" : false,
+    ...LOOK, margin, width, height: inner + margin.t + margin.b, showlegend: false, hovermode: "closest", dragmode: ZOOMS ? "zoom" : false,
     xaxis: { ...axis, range: [frame.left, frame.right], anchor: "y2", title: title("distance along the road (mm)"), nticks: 6, fixedrange: !ZOOMS, constrain: "domain" },
     yaxis: {
       ...axis, range: [frame.bottom, frame.top], domain: [(profile + gap) / inner, 1], scaleanchor: "x", constrain: "domain",

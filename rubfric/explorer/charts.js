@@ -3,13 +3,14 @@
 
 // Drag to zoom only where a finger does not have to scroll the page.
 const ZOOMS = window.matchMedia("(hover: hover) and (pointer: fine)").matches;
+const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", sans-serif';
 const LOOK = {
   paper_bgcolor: "rgba(0,0,0,0)",
   plot_bgcolor: "rgba(0,0,0,0)",
-  font: { family: 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", sans-serif', size: 12, color: "#1d2129" },
-  hoverlabel: { bgcolor: "#ffffff", bordercolor: "#8b8a86", font: { size: 13, color: "#1d2129" }, align: "left" },
+  font: { family: FONT, size: 12, color: "#1d2129" },
+  hoverlabel: { bgcolor: "#ffffff", bordercolor: "#8b8a86", font: { family: FONT, size: 13, color: "#1d2129" }, align: "left" },
 };
-const CONFIG = { displayModeBar: false, responsive: false, scrollZoom: false, doubleClick: "reset" };
+const CONFIG = { displayModeBar: false, responsive: false, scrollZoom: false, showTips: false, doubleClick: "reset" };
 const AXIS = { zeroline: false, gridcolor: "#eeece7", linecolor: "#b6b4ae", tickcolor: "#b6b4ae", ticks: "outside", ticklen: 4, fixedrange: true };
 const SYMBOLS = ["circle", "square-open", "triangle-up", "diamond-open", "triangle-down", "cross-open", "x", "pentagon-open"];
 const DASHES = ["solid", "8px,3px", "4px,2px", "8px,2px,2px,2px", "2px,2px"];
@@ -151,7 +152,7 @@ function mapPlot(data, chosen, width) {
       ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", dragmode: false,
       xaxis: { ...AXIS, ...ticks(speeds, speedLabels(data.speeds, width - 50)), title: titled("sliding speed (mm/s)") },
       yaxis: { ...AXIS, ...ticks(pressures, data.pressures.map(plain)), title: titled("nominal pressure (MPa)") },
-      shapes: [{ type: "rect", x0: x - 0.49, x1: x + 0.49, y0: y - 0.49, y1: y + 0.49, line: { color: "#1d2129", width: 3 } }],
+      shapes: [{ type: "rect", x0: x - 0.49, x1: x + 0.49, y0: y - 0.49, y1: y + 0.49, line: { color: "#e8601c", width: 3.5 } }],
     },
   };
 }
@@ -181,7 +182,7 @@ function barsPlot(data, chosen, width) {
   return {
     traces: [...bars, sums],
     layout: {
-      ...LOOK, barmode: "stack", bargap: 0.28, height: 270, margin: { l: 52, r: 8, t: 26, b: 48 }, hovermode: "closest", dragmode: false,
+      ...LOOK, barmode: "stack", bargap: 0.28, width, height: 270, margin: { l: 52, r: 8, t: 26, b: 48 }, hovermode: "closest", dragmode: false,
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", traceorder: "normal", font: { size: 12 }, itemclick: false, itemdoubleclick: false },
       xaxis: { ...AXIS, tickvals: places, ticktext: speedLabels(data.speeds, width), tickangle: 0, ticks: "", range: [-0.6, places.length - 0.4], showgrid: false, title: titled("sliding speed (mm/s)") },
       yaxis: { ...AXIS, rangemode: "tozero", title: titled("friction coefficient μ"), tickformat: ".3~g" },

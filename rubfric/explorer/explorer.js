@@ -137,53 +137,6 @@ function showWords() {
   byId("chart").setAttribute("aria-label", `${byId("chart-title").textContent}. ${keys}`);
 }
 
-/** One number of the list, with a remark. */
-function entry(term, value, remark = "", wide = false) {
-  const told = element("dd", {}, value, " ", element("small", {}, remark));
-  return element("div", wide ? { class: "wide" } : {}, element("dt", {}, term), told);
-}
-
-function showSceneNumbers(scene) {
-  const local = scene.largestLocal === null ? "" : `${rounded(scene.largestLocal)} MPa per deformed area`;
-  byId("numbers").replaceChildren(element("dl", {},
-    entry("μ by stress power", rounded(scene.friction, 4)),
-    entry("μ by dissipation", rounded(scene.dissipation, 4)),
-    entry("μ by contact pressure", rounded(scene.contactRoute, 4)),
-    entry("The three differ by at most", percent(scene.closure)),
-    entry("In contact", percent(scene.contact), "of the nominal area"),
-    entry("Largest contact pressure", pressureOf(Number(scene.largest.toPrecision(3))), local),
-    entry("Nominal compression", percent(scene.compression), "on a flat road"),
-    entry("Mesh", `${plain(scene.columns)} × ${plain(scene.rows)} cells`),
-    entry(`Kinematics: ${scene.finite ? "finite" : "small"} strain`, scene.reason ? sentence(scene.reason) : "", "", true),
-  ));
-}
-
-function showTotalNumbers() {
-  const { pressure, speed } = chosen;
-  const total = data.curves.total.friction[pressure][speed];
-  const cells = (kind, values) => values.map((value) => element(kind, {}, value));
-  const rows = data.scales.map(({ number }, order) => {
-    const scene = data.scenes[number][pressure][speed];
-    const name = element("td", {}, element("span", { class: "swatch", style: `background:${data.colours.scales[order]}` }), `scale ${number}`);
-    if (!scene) return element("tr", {}, name, ...cells("td", ["not run", "", "", ""]));
-    const share = total ? percent(scene.friction / total) : "";
-    return element("tr", {}, name, ...cells("td", [measured(scene.friction, scene.error), share, percent(scene.contact), rounded(scene.largest)]));
-  });
-  const sum = measured(total, data.curves.total.error[pressure][speed]);
-  rows.push(element("tr", {}, ...cells("td", ["total", sum, "", "", ""])));
-  const head = element("tr", {}, ...["", "μ", "share", "contact", "largest MPa"].map((name) => element("th", { scope: "col" }, name)));
-  byId("numbers").replaceChildren(element("div", { class: "scroll" }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows))));
-}
-
-function showWarnings(scenes) {
-  const said = new Map();
-  for (const [number, scene] of scenes) {
-    for (const words of scene?.warnings ?? []) said.set(words, [...(said.get(words) ?? []), number]);
-  }
-  const items = [...said].map(([words, scales]) => element("li", {}, scenes.length > 1 ? `Scale ${scales.join(", ")}: ${words}` : words));
-  byId("warnings").replaceChildren(...(items.length ? [element("ul", { "aria-label": "Warnings" }, ...items)] : []));
-}
-
 // ---- Pictures ----
 
 const framed = new Map();
@@ -208,8 +161,8 @@ function showScene(place) {
   byId("picture").hidden = !picture;
   byId("caption").replaceChildren();
   byId("numbers").replaceChildren();
-  showWarnings([[place, scene]]);
-  if (scene) showSceneNumbers(scene);
+  byId("warnings").replaceChildren(...warningsOf([[place, scene]]));
+  if (scene) byId("numbers").replaceChildren(sceneNumbers(scene));
   if (!picture) return null;
   const how = picture.finite
     ? "Displacements are to scale; the white lines made squares before deformation."
@@ -238,8 +191,8 @@ function showTotal() {
   byId("small-pictures").replaceChildren(...data.scales.map(smallPicture));
   byId("energies").replaceChildren();
   byId("caption").textContent = "Bars: what each scale adds at this pressure, with the error of the sum. Pictures: the block on each scale, each in its own size, brighter where more energy is stored.";
-  showTotalNumbers();
-  showWarnings(scenes);
+  byId("numbers").replaceChildren(totalNumbers(data, chosen));
+  byId("warnings").replaceChildren(...warningsOf(scenes));
   byId("picture").hidden = false;
   byId("picture").setAttribute("aria-label", `Friction of each scale against speed at ${pressureOf(data.pressures[chosen.pressure])}, stacked; the table below has the numbers.`);
   const plot = barsPlot(data, chosen, byId("picture").clientWidth);

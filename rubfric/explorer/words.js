@@ -23,6 +23,7 @@ function rounded(value, digits = 3) {
 function percent(share) {
   if (share === null) return "unknown";
   const value = 100 * share;
+  if (value > 0 && value < 0.001) return `below 0.001${THIN}%`;
   return `${Math.abs(value) >= 10 ? Math.round(value) : plain(Number(value.toPrecision(2)))}${THIN}%`;
 }
 

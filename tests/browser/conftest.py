@@ -48,14 +48,12 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[WebDriver]:
 
 
 @pytest.fixture
-def browser(chromium: WebDriver) -> Iterator[WebDriver]:
-    """Return Chromium on an empty page of 1400 by 900 pixels, its logs empty."""
+def browser(chromium: WebDriver) -> WebDriver:
+    """Return Chromium with a window of 1400 by 900 pixels and empty logs, on the page that the test before has left."""
     resize(chromium, 1400, 900)
-    chromium.get("about:blank")
     chromium.get_log("browser")
     requested_addresses(chromium)
-    yield chromium
-    chromium.get("about:blank")
+    return chromium
 
 
 @pytest.fixture(scope="session")

@@ -61,7 +61,7 @@ def curve(browser: WebDriver, pressure: float) -> dict[str, Any]:
 
 
 def test_page_needs_no_network_and_complains_of_nothing(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path)
+    open_explorer(browser, whole.path, fresh=True)
     for choice in ("scale=1", "scale=2&view=map&pressure=0.5&speed=1", "scale=total"):
         show(browser, choice)
     addresses = requested_addresses(browser)
@@ -80,7 +80,7 @@ def test_complaints_and_requests_would_be_seen(browser: WebDriver, whole: Any) -
 def test_hovering_tells_the_numbers_of_the_dataset(browser: WebDriver, whole: Any) -> None:
     open_explorer(browser, whole.path)
     for scale, speed, pressure in ((1, 1.0, 5.0), (1, 100.0, 0.5), (2, 1000.0, 5.0), (2, 10000.0, 0.5)):
-        show(browser, f"scale={scale}&pressure={5.5 - pressure:g}&speed=100")
+        show(browser, f"scale={scale}&view=curves&pressure={5.5 - pressure:g}&speed=100")
         friction = whole.at("friction_coefficient", scale, speed, pressure)
         said = hover_words(browser, "chart", place(browser, "chart", speed, friction))
         assert f"{speed:g}mm/s,{pressure:g}MPa" in re.sub(r"\s", "", said)
@@ -95,7 +95,7 @@ def test_hovering_tells_the_numbers_of_the_dataset(browser: WebDriver, whole: An
 
 
 def test_choosing_a_scale_changes_the_curves(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=1")
+    open_explorer(browser, whole.path, "scale=1&view=curves")
     for scale in (1, 2):
         choose(browser, "place", str(scale))
         for pressure in PRESSURES:
@@ -143,7 +143,7 @@ def assert_shows(browser: WebDriver, whole: Any, scale: int, speed: float, press
 
 
 def test_clicking_shows_a_scene(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=1&pressure=0.5&speed=1")
+    open_explorer(browser, whole.path, "scale=1&view=curves&pressure=0.5&speed=1")
     for speed, pressure in ((1000.0, 5.0), (100.0, 0.5)):
         friction = whole.at("friction_coefficient", 1, speed, pressure)
         click_at(browser, "chart", place(browser, "chart", speed, friction))
@@ -158,7 +158,7 @@ def test_clicking_shows_a_scene(browser: WebDriver, whole: Any) -> None:
 
 
 def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=total&pressure=0.5&speed=1")
+    open_explorer(browser, whole.path, "scale=total&view=curves&pressure=0.5&speed=1", fresh=True)
     reached = []
     for _ in range(5):
         ActionChains(browser).send_keys(Keys.TAB).perform()
@@ -205,12 +205,12 @@ def test_total_adds_the_scales_up(browser: WebDriver, whole: Any) -> None:
 
 
 def test_address_brings_a_view_back(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=2&view=map&pressure=0.5&speed=100")
+    open_explorer(browser, whole.path, "scale=2&view=map&pressure=0.5&speed=100", fresh=True)
     assert settled(browser) == "#scale=2&view=map&pressure=0.5&speed=100"
     assert words(browser, "scene-title") == "Scale 2 at 100 mm/s, 0.5 MPa"
     show(browser, "scale=1&pressure=5")
     assert words(browser, "scene-title") == "Scale 1 at 100 mm/s, 5 MPa"
-    open_explorer(browser, whole.path, "scale=9&view=none&pressure=x&speed=-1&more=<b>")
+    open_explorer(browser, whole.path, "scale=9&view=none&pressure=x&speed=-1&more=<b>", fresh=True)
     assert settled(browser).startswith("#scale=total&view=curves&pressure=")
     assert not console_errors(browser)
 
@@ -227,6 +227,31 @@ def test_narrow_screen_shows_all_of_it(browser: WebDriver, whole: Any) -> None:
         assert browser.execute_script("return document.documentElement.scrollWidth") <= 360
         assert browser.execute_script(widest) <= 360.5
     assert not console_errors(browser)
+
+
+def test_peak_is_named_only_where_it_is_one(browser: WebDriver, whole: Any) -> None:
+    open_explorer(browser, whole.path, "scale=1")
+    for scale, pressure in product((1, 2), PRESSURES):
+        show(browser, f"scale={scale}&pressure={pressure:g}")
+        values = [whole.at("friction_coefficient", scale, speed, pressure) for speed in SPEEDS]
+        errors = [whole.at("friction_coefficient_error", scale, speed, pressure) for speed in SPEEDS]
+        top = int(np.argmax(values))
+        ends = max(values[0] + errors[0], values[-1] + errors[-1])
+        said = words(browser, "peak")
+        assert ("the peak is" in said) == (ends < values[top] - errors[top])
+        assert_tells(said, values[top], errors[top])
+
+
+def test_page_prints_on_paper(browser: WebDriver, whole: Any) -> None:
+    open_explorer(browser, whole.path, "scale=1")
+    printed = browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True})
+    assert len(printed["data"]) > 20000
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    try:
+        hidden = "return getComputedStyle(document.getElementById('choices')).display"
+        assert browser.execute_script(hidden) == "none"
+    finally:
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
 
 
 def test_one_scene_is_a_campaign(browser: WebDriver, explorer: Callable[..., Any]) -> None:
@@ -267,19 +292,6 @@ def test_names_are_words_and_nothing_else(browser: WebDriver, explorer: Callable
     assert not console_errors(browser)
 
 
-def test_peak_is_named_only_where_it_is_one(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=1")
-    for scale, pressure in product((1, 2), PRESSURES):
-        show(browser, f"scale={scale}&pressure={pressure:g}")
-        values = [whole.at("friction_coefficient", scale, speed, pressure) for speed in SPEEDS]
-        errors = [whole.at("friction_coefficient_error", scale, speed, pressure) for speed in SPEEDS]
-        top = int(np.argmax(values))
-        ends = max(values[0] + errors[0], values[-1] + errors[-1])
-        said = words(browser, "peak")
-        assert ("the peak is" in said) == (ends < values[top] - errors[top])
-        assert_tells(said, values[top], errors[top])
-
-
 def test_without_javascript_a_sentence_says_so(browser: WebDriver, whole: Any) -> None:
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     try:
@@ -287,15 +299,3 @@ def test_without_javascript_a_sentence_says_so(browser: WebDriver, whole: Any) -
         assert "draws with JavaScript" in browser.find_element("tag name", "noscript").text
     finally:
         browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
-
-
-def test_page_prints_on_paper(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=1")
-    printed = browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True})
-    assert len(printed["data"]) > 20000
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-    try:
-        hidden = "return getComputedStyle(document.getElementById('choices')).display"
-        assert browser.execute_script(hidden) == "none"
-    finally:
-        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})

@@ -71,10 +71,17 @@ def outside(addresses: list[str]) -> list[str]:
     return [address for address in addresses if not address.startswith(_OWN)]
 
 
-def open_explorer(browser: WebDriver, path: Path, choice: str = "") -> None:
-    """Open the page and wait until it is drawn; ``choice`` is what follows the # of its address."""
+def open_explorer(browser: WebDriver, path: Path, choice: str = "", fresh: bool = False) -> None:
+    """Have the page on the screen, drawn; ``choice`` is what follows the # of its address.
+
+    It is loaded where another page is open, or where it has to be ``fresh``: loading takes longer than all the rest.
+    """
+    address = path.resolve().as_uri()
+    if not fresh and browser.current_url.partition("#")[0] == address:
+        show(browser, choice)
+        return
     browser.get("about:blank")
-    browser.get(path.resolve().as_uri() + (f"#{choice}" if choice else ""))
+    browser.get(address + (f"#{choice}" if choice else ""))
     settled(browser)
 
 

@@ -1,7 +1,9 @@
 # One page to explore the campaign in a browser: the grid's scenes, without the other ratios of the study.
 from rubfric.explorer.assets import assets
 
-EXPLORED = {name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect}
+EXPLORED = {
+    name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
+}
 
 
 rule explorer:

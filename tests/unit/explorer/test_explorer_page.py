@@ -78,7 +78,7 @@ def test_every_asset_is_packaged() -> None:
 @pytest.mark.parametrize("path", [path for path in assets() if path.suffix == ".js"], ids=lambda path: path.stem)
 def test_scripts_are_short_and_make_no_markup_of_words(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert len(text.splitlines()) <= 400
+    assert len(text.splitlines()) <= 260
     assert not re.search(
         r"innerHTML|insertAdjacentHTML|document\.write|\beval\(|https?://(?!www\.w3\.org/2000/svg)", text
     )
