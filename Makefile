@@ -1,5 +1,6 @@
 # make figures   set up a local environment and run the campaign: every table and figure, in results/
 # make test      set up and pass the tests
+# make test-browser  pass the tests of the page to explore, in Chromium
 # make check     formatting, lint, types, workflow lint
 # make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
@@ -16,7 +17,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures report test check docs bench accuracy stability format clean distclean
+.PHONY: figures report test test-browser check docs bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -33,6 +34,9 @@ docs: $(VENV)/.ready
 
 test: $(VENV)/.ready
 	python -m pytest -n $(JOBS)
+
+test-browser: $(VENV)/.ready
+	python -m pytest tests/browser
 
 check: $(VENV)/.ready
 	ruff check .

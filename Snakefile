@@ -39,6 +39,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/explorer.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/stability.smk"
 
@@ -53,6 +54,7 @@ rule all:
         FIGURES,
         rules.march_figure.output,
         rules.claims.output,
+        rules.explorer.output,
 
 
 # For the report, which runs nothing: the campaign, and what there is of accuracy and stability.

@@ -14,7 +14,7 @@ import rubfric
 PACKAGE = Path(rubfric.__file__).resolve().parent
 WORKFLOW = PACKAGE.parent / "workflow"
 
-# Lowest first. A module may import from the floors below its own; those of figures also one another.
+# Lowest first. A module may import from the floors below its own; those of figures and of explorer also one another.
 FLOORS = [
     {"errors", "arrays", "measured"},
     {"checks", "atomic"},
@@ -49,6 +49,7 @@ FLOORS = [
     {"judgement"},
     {"claimspage"},
     {"figures"},
+    {"explorer"},
     {"campaign", "verdict"},
     {"trials", "extremes", "sources"},
     {"jobs", "warm", "cli", "trial", "records", "progress", "findings", "configdoc"},
@@ -118,7 +119,7 @@ def test_every_module_has_a_floor_and_every_floor_its_modules() -> None:
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_point_down(module: str) -> None:
     for below in own_imports(module):
-        if is_figure(module) and is_figure(below):
+        if "." in module and module.partition(".")[0] == below.partition(".")[0]:
             continue
         assert floor(below) < floor(module), f"{module} imports {below}"
 
@@ -128,8 +129,11 @@ def test_no_figure_is_imported_by_another(module: str) -> None:
     assert not {below for below in own_imports(module) if re.fullmatch(r"figures\.fig\d+", below)}
 
 
-def test_figures_do_not_import_in_circles() -> None:
-    waiting = {module: {below for below in own_imports(module) if is_figure(below)} for module in FIGURES}
+@pytest.mark.parametrize("package", ["figures", "explorer"])
+def test_modules_of_a_package_do_not_import_in_circles(package: str) -> None:
+    modules = [module for module in MODULES if module.startswith(f"{package}.")]
+    waiting = {module: own_imports(module) & set(modules) for module in modules}
+    assert waiting
     while waiting:
         free = {module for module, below in waiting.items() if not below & waiting.keys()}
         assert free, f"circle among {sorted(waiting)}"
@@ -151,6 +155,18 @@ def test_only_figures_import_matplotlib() -> None:
     assert users
     assert {module for module, inside in users if not is_figure(module)} <= {"warm"}
     assert ("warm", False) not in users
+
+
+def test_only_explorer_imports_plotly() -> None:
+    users = {module for module in MODULES for name, _ in outside_imports(module) if name == "plotly"}
+    assert users
+    assert all(module.startswith("explorer.") for module in users)
+
+
+def test_explorer_reads_datasets_and_nothing_of_the_mechanics() -> None:
+    allowed = {"errors", "arrays", "atomic", "checks", "multiscale", "figures.deformation"}
+    for module in (module for module in MODULES if module.startswith("explorer.")):
+        assert {below for below in own_imports(module) if not below.startswith("explorer.")} <= allowed, module
 
 
 def test_only_cell_imports_skfem() -> None:

@@ -34,6 +34,7 @@ def test_tables_and_figures_are_there(template: Project) -> None:
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
     assert (template.results / "campaign.nc").is_file()
+    assert 1_000_000 < (template.results / "explorer.html").stat().st_size < 10_000_000
 
 
 def test_claims_are_judged_here_and_in_the_other_reading(template: Project) -> None:
@@ -100,6 +101,7 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "march_figure": 1,
         "reading": 8,
         "claims": 1,
+        "explorer": 1,
     }
     assert plan.scenes == set(empty_project.campaign.scenes())
     assert plan.figures == FIGURES

@@ -12,7 +12,7 @@ from project_copy import Project
 
 TABLES = {"scale_table": 4, "total_table": 1}
 CLAIMS = {"claims": 1}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **CLAIMS}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **CLAIMS, "explorer": 1}
 FIELDS = {"field_figure": 2, **CLAIMS}
 MARCHES = {"march": 1, "march_figure": 1, **CLAIMS}
 EVERYTHING = {"scene": 18, **CAMPAIGN, **FIELDS, **MARCHES, "reading": 8}
@@ -127,8 +127,14 @@ def test_edited_tables_are_written_again_alone(project: Project) -> None:
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/multiscale.py")
     plan = project.plan()
-    assert plan.jobs == {**TABLES, "campaign_figure": 1, **CLAIMS}
+    assert plan.jobs == {**TABLES, "campaign_figure": 1, **CLAIMS, "explorer": 1}
     assert plan.figures == {"fig7"}
+
+
+@pytest.mark.parametrize("name", ["page.py", "explorer.js"])
+def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
+    project.comment(f"rubfric/explorer/{name}")
+    assert project.plan().jobs == {"explorer": 1}
 
 
 def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
