@@ -82,6 +82,8 @@ class RunLog(logging.Handler):
                 self._finish(about["job_id"])
             elif event == "JOB_ERROR":
                 self._fail(about["jobid"], about["log"], about["aux"])
+            elif event == "GROUP_ERROR":
+                self._tell([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
             elif not event and isinstance(record.msg, str):
                 self._interrupted |= record.msg.startswith(_INTERRUPTED)
                 self._say(self._places() if record.msg.startswith(_UP_TO_DATE) else [])

@@ -18,13 +18,13 @@ _DIGITS = 4
 # How headings end: what the page writes for it.
 _UNITS = {"_mm_per_s": "mm/s", "_MPa": "MPa", "_mm": "mm", "_s": "s", "_MB": "MB"}
 _STYLE = """
-body { font: 14px/1.45 system-ui, sans-serif; color: #1f2933; margin: 2rem; }
+body { font: 13px/1.45 system-ui, sans-serif; color: #1f2933; margin: 1.25rem; }
 h1 { font-size: 1.25rem; font-weight: 600; margin: 0 0 .25rem; }
 p { max-width: 46rem; margin: 0 0 1rem; color: #52606d; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th { position: sticky; top: 0; background: #fff; font-weight: 600; vertical-align: bottom; text-align: right;
-     max-width: 8.5rem; padding: .35rem .7rem; box-shadow: 0 1px #1f2933; }
-td { text-align: right; padding: .2rem .7rem; border-bottom: 1px solid #e4e7eb; white-space: nowrap; }
+     max-width: 7.5rem; padding: .35rem .5rem; box-shadow: 0 1px #1f2933; }
+td { text-align: right; padding: .2rem .5rem; border-bottom: 1px solid #e4e7eb; white-space: nowrap; }
 tr:hover td { background: #f0f4f8; }
 tr.group td { border-top: 2px solid #9aa5b1; }
 small { font-weight: 400; color: #7b8794; }

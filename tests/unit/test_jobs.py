@@ -89,6 +89,15 @@ def test_main_runs_in_another_process_that_is_warm(place: Workplace) -> None:
     assert jobs.__name__ in sys.modules
 
 
+def test_time_of_a_job_is_known_by_its_log(place: Workplace) -> None:
+    before = time.monotonic()
+    place.run("one")
+    took = jobs.seconds(str(place.log("one")))
+    assert took is not None
+    assert 0.0 < took < time.monotonic() - before
+    assert jobs.seconds(str(place.log("none"))) is None
+
+
 def test_next_job_takes_the_same_worker(place: Workplace) -> None:
     processes = [place.run(name).read_text().split()[1] for name in ("one", "two")]
     assert len(set(processes)) == 1

@@ -130,6 +130,18 @@ def test_failure_on_a_cluster_is_told_at_once_and_forgotten_once_made_up_for(run
     assert "failed" not in run.said[-3]
 
 
+def test_group_that_failed_is_told_at_once_and_its_jobs_at_the_end(run: Run, snakemake: Snakemake) -> None:
+    snakemake.send("RUN_INFO", "Job stats", stats=STATS)
+    for job, scene in enumerate(["a", "b"]):
+        snakemake.start(job, scene)
+    snakemake.send("GROUP_ERROR", "Error in group", groupid="g", aux_logs=["17.log"], job_error_info=[])
+    for job in range(2):
+        snakemake.fail(job)
+    assert run.said[1:] == ["  failed: a group of jobs, or some of them (log: 17.log)"]
+    run.log.fail()
+    assert run.said[3:5] == ["  failed: a (log: logs/0.log)", "  failed: b (log: logs/1.log)"]
+
+
 def test_many_failures_are_not_a_flood(run: Run, snakemake: Snakemake) -> None:
     snakemake.send("RUN_INFO", "Job stats", stats={"scene": 224, "total": 224})
     for job in range(224):
