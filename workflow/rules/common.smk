@@ -2,6 +2,8 @@
 import hashlib
 from dataclasses import asdict
 
+from snakemake.scheduling.job_scheduler import JobScheduler
+
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
@@ -17,6 +19,37 @@ wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
+
+
+# Tables and figures take seconds: on a cluster they run where Snakemake does. A batch of scenes runs on its node in one
+# Snakemake, to which all of them are local, and there too a scene that fails stops no other.
+localrules:
+    campaign,
+    scale_table,
+    total_table,
+    campaign_figure,
+    field_figure,
+    march_figure,
+    accuracy_tables,
+    accuracy_figure,
+    stability_table,
+    stability_figure,
+
+
+if workflow.remote_exec:
+    JobScheduler.keepgoing = property(lambda self: True, lambda self, value: None)
+
+    localrules:
+        scene,
+        march,
+        ladder,
+        calibrate,
+        stability_batch,
+
+
+def memory(wildcards, attempt):
+    """Return the memory to ask a cluster for, MB: small strain needs little; a scene that was killed gets more."""
+    return attempt * (1000 if CAMPAIGN.kinematics == "small" else 4000)
 
 
 def package_files(*modules):

@@ -15,6 +15,9 @@ rule scene:
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
         version=rubfric.__version__,
+    resources:
+        mem_mb=memory,
+        runtime=1,
     message:
         "{wildcards.scene}"
     run:
