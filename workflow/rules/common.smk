@@ -7,7 +7,7 @@ from snakemake.scheduling.job_scheduler import JobScheduler
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
-from rubfric.sources import sources
+from rubfric.sources import stamp
 from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
@@ -53,8 +53,10 @@ def memory(wildcards, attempt):
 
 
 def package_files(*modules):
-    """Return the package's files behind some modules: a job that lists them reruns when their content changes."""
-    return [os.path.relpath(path) for path in sources(*modules)]
+    """Return a file that stands for the package's files behind some modules: a job that lists it reruns when the content
+    of one of them changes.
+    """
+    return stamp(".snakemake/sources", *modules)
 
 
 def scene_file(name):

@@ -75,6 +75,6 @@ rule field_figure:
 
 rule figures:
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         FIGURES,

@@ -1,7 +1,11 @@
 # One job per scene. All that a scene depends on stands in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
-SCENE_FILES = [scene_file(name) for name in SCENES]
 DIGESTS = [scene.digest for scene in SCENES.values()]
+
+
+def scene_files(wildcards):
+    """Return the results of all scenes."""
+    return [scene_file(name) for name in SCENES]
 
 
 rule scene:
@@ -12,12 +16,12 @@ rule scene:
         scene_file("{scene}"),
     log:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
-    params:
-        parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
-        version=rubfric.__version__,
     resources:
         mem_mb=memory,
         runtime=1,
+    params:
+        parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
+        version=rubfric.__version__,
     message:
         "{wildcards.scene}"
     run:
@@ -28,7 +32,7 @@ rule campaign:
     input:
         package_files("rubfric.collection"),
         script="workflow/scripts/collect_campaign.py",
-        scenes=SCENE_FILES,
+        scenes=scene_files,
     output:
         f"{RESULTS}/campaign.nc",
         # Other scenes, another name: the collection is checked anew even where Snakemake has lost its memory.
@@ -52,4 +56,4 @@ rule campaign:
 
 rule scenes:
     input:
-        SCENE_FILES,
+        scene_files,
