@@ -2,8 +2,6 @@
 import hashlib
 from dataclasses import asdict
 
-from snakemake.scheduling.job_scheduler import JobScheduler
-
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
@@ -21,8 +19,8 @@ wildcard_constraints:
     figure=r"\w+",
 
 
-# Tables and figures take seconds: on a cluster they run where Snakemake does. A batch of scenes runs on its node in one
-# Snakemake, to which all of them are local, and there too a scene that fails stops no other.
+# On a cluster, tables and figures run where Snakemake does: they take seconds. The scenes of a batch are local to the
+# one Snakemake that runs them on their node: it would start another for each.
 localrules:
     campaign,
     scale_table,
@@ -37,19 +35,12 @@ localrules:
 
 
 if workflow.remote_exec:
-    JobScheduler.keepgoing = property(lambda self: True, lambda self, value: None)
-
     localrules:
         scene,
         march,
         ladder,
         calibrate,
         stability_batch,
-
-
-def memory(wildcards, attempt):
-    """Return the memory to ask a cluster for, MB: small strain needs little; a scene that was killed gets more."""
-    return attempt * (1000 if CAMPAIGN.kinematics == "small" else 4000)
 
 
 def package_files(*modules):

@@ -16,9 +16,6 @@ rule scene:
         scene_file("{scene}"),
     log:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
-    resources:
-        mem_mb=memory,
-        runtime=1,
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
         version=rubfric.__version__,
