@@ -1,7 +1,8 @@
 # make figures   set up a local environment and run the campaign: every table and figure, in results/
 # make test      set up and pass the tests
+# make test-cluster  pass the tests on a SLURM cluster of one node, which Debian's slurm-wlm and munge make here
 # make check     formatting, lint, types, workflow lint
-# make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
+# make bench     time scenes in-process, the campaign against its floor, and planning; writes the tables of the pages
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
 # make stability try the matrix of extremes, draw its map; writes its table of the README
 # make clean     remove results; make distclean removes the environment too
@@ -14,7 +15,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures test check bench accuracy stability format clean distclean
+.PHONY: figures test test-cluster check bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -22,10 +23,14 @@ figures: $(VENV)/.ready
 test: $(VENV)/.ready
 	python -m pytest
 
+test-cluster: $(VENV)/.ready
+	python -m pytest tests/cluster
+
 check: $(VENV)/.ready
 	ruff check .
 	ruff format --check .
 	mypy
+	MYPYPATH=tests/workflow mypy tests/cluster
 	snakefmt --check Snakefile workflow
 	snakemake --lint
 
@@ -33,6 +38,7 @@ bench: $(VENV)/.ready
 	python tests/benchmark/scenes.py
 	python tests/benchmark/campaign.py
 	python tests/benchmark/transient.py
+	python tests/benchmark/dag.py
 
 accuracy: $(VENV)/.ready
 	snakemake -j$(JOBS) accuracy

@@ -1,6 +1,7 @@
 """A real SLURM cluster of one node on loopback, in a scratch folder, from Debian's packages.
 
-``python tests/cluster/one_node.py COMMAND ...`` starts it, runs a command against it and takes it down again.
+``python tests/cluster/one_node.py COMMAND ...`` starts it, runs a command against it and takes it down again;
+``--missing`` only names the packages that it lacks, and fails if there are any.
 """
 
 from __future__ import annotations
@@ -100,12 +101,13 @@ def _configure(folder: Path) -> Path:
     key.chmod(0o600)
     # Both ports are free now; nobody else is likely to take them within a second.
     with socket.socket() as first, socket.socket() as second:
-        ports = [port.bind(("127.0.0.1", 0)) or port.getsockname()[1] for port in (first, second)]
+        for port in (first, second):
+            port.bind(("127.0.0.1", 0))
+        controller, node = (port.getsockname()[1] for port in (first, second))
     config = folder / "slurm.conf"
     host = socket.gethostname().partition(".")[0]
-    config.write_text(
-        CONFIG.format(host=host, controller=ports[0], node=ports[1], user=getpass.getuser(), folder=folder)
-    )
+    user = getpass.getuser()
+    config.write_text(CONFIG.format(host=host, controller=controller, node=node, user=user, folder=folder))
     return config
 
 
@@ -163,10 +165,19 @@ def _cancel_all(environment: dict[str, str]) -> None:
         time.sleep(0.1)
 
 
+def main(arguments: list[str]) -> int:
+    """Run a command on the cluster and return its exit code, or name what the cluster lacks."""
+    if arguments == ["--missing"]:
+        print(*missing_packages())
+        return int(bool(missing_packages()))
+    try:
+        with one_node() as environment:
+            return subprocess.run(arguments or ["sinfo"], env=environment, check=False).returncode
+    except NoCluster as error:
+        print(f"No cluster: {error}.", file=sys.stderr)
+        return 1
+
+
 if __name__ == "__main__":
     with suppress(KeyboardInterrupt):
-        try:
-            with one_node() as cluster:
-                sys.exit(subprocess.run(sys.argv[1:] or ["sinfo"], env=cluster, check=False).returncode)
-        except NoCluster as error:
-            sys.exit(f"No cluster: {error}.")
+        sys.exit(main(sys.argv[1:]))

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import psutil
 import pytest
@@ -82,6 +83,10 @@ def batches_on_the_node(project: OnCluster) -> list[psutil.Process]:
     return found
 
 
+def has_scenes(project: Project, number: int) -> bool:
+    return len(project.scene_files) >= number
+
+
 def ages(project: Project) -> dict[str, int]:
     return {name: path.stat().st_mtime_ns for name, path in project.scene_files.items()}
 
@@ -109,10 +114,10 @@ def test_what_ran_on_the_node_is_remembered(survivor: OnCluster) -> None:
 
 def test_interrupted_run_goes_on_with_what_is_missing(on_cluster: Callable[[str], OnCluster], here: Project) -> None:
     project = on_cluster("interrupted")
-    for how in (signal.SIGINT, signal.SIGKILL):
+    for how, most in ((signal.SIGINT, 3), (signal.SIGKILL, 7)):
         before = ages(project)
         with running(project) as process:
-            until(lambda before=before: len(project.scene_files) >= len(before) + 3, process)
+            until(partial(has_scenes, project, most), process)
             process.send_signal(how)
         assert process.returncode != 0
         if how is signal.SIGKILL:  # nobody else takes the batches back

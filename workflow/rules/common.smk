@@ -35,6 +35,7 @@ localrules:
 
 
 if workflow.remote_exec:
+
     localrules:
         scene,
         march,
@@ -53,6 +54,11 @@ def package_files(*modules):
 def scene_file(name):
     """Return where the result of a scene belongs."""
     return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def scene_files(wildcards):
+    """Return the results of all scenes; a function, since only some runs need to know."""
+    return [scene_file(name) for name in SCENES]
 
 
 def march_file(name):

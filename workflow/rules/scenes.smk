@@ -3,11 +3,6 @@ SCENES = CAMPAIGN.scenes()
 DIGESTS = [scene.digest for scene in SCENES.values()]
 
 
-def scene_files(wildcards):
-    """Return the results of all scenes."""
-    return [scene_file(name) for name in SCENES]
-
-
 rule scene:
     input:
         package_files("rubfric.simulation"),
