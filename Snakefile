@@ -47,7 +47,7 @@ include: "workflow/rules/stability.smk"
 rule all:
     default_target: True
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         MARCH_FILES,
         TABLES,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import time
 from typing import Any
 
@@ -157,6 +158,11 @@ def test_touch_alone_reruns_nothing(project: Project) -> None:
                 touched += 1
     os.utime(project.root / "Snakefile", (later, later))
     assert touched > 40
+    assert project.plan().jobs == {}
+
+
+def test_lost_stamps_of_the_sources_rerun_nothing(project: Project) -> None:
+    shutil.rmtree(project.root / ".snakemake" / "sources")
     assert project.plan().jobs == {}
 
 

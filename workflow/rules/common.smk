@@ -14,7 +14,7 @@ from rubfric.checks import written
 from rubfric.findings import highest, verdicts
 from rubfric.readings import AS_CONFIGURED
 from rubfric.runlog import RunLog, attach
-from rubfric.sources import sources
+from rubfric.sources import stamp
 from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
@@ -37,14 +37,49 @@ wildcard_constraints:
     figure=r"\w+",
 
 
+# On a cluster, tables and figures run where Snakemake does: they take seconds. The scenes of a batch are local to the
+# one Snakemake that runs them on their node: it would start another for each.
+localrules:
+    campaign,
+    scale_table,
+    total_table,
+    campaign_figure,
+    field_figure,
+    march_figure,
+    claims,
+    explorer,
+    accuracy_tables,
+    accuracy_figure,
+    stability_table,
+    stability_figure,
+
+
+if workflow.remote_exec:
+
+    localrules:
+        scene,
+        reading,
+        march,
+        ladder,
+        calibrate,
+        stability_batch,
+
+
 def package_files(*modules):
-    """Return the package's files behind some modules: a job that lists them reruns when their content changes."""
-    return [os.path.relpath(path) for path in sources(*modules)]
+    """Return a file that stands for the package's files behind some modules: a job that lists it reruns when the content
+    of one of them changes.
+    """
+    return stamp(".snakemake/sources", *modules)
 
 
 def scene_file(name):
     """Return where the result of a scene belongs."""
     return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def scene_files(wildcards):
+    """Return the results of all scenes; a function, since only some runs need to know."""
+    return [scene_file(name) for name in SCENES]
 
 
 def march_file(name):

@@ -89,6 +89,6 @@ rule field_figure:
 
 rule figures:
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         FIGURES,
