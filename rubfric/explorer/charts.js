@@ -132,7 +132,7 @@ function mapPlot(data, chosen, width) {
   const roomy = (width - 100) / speeds.length > 40;
   const rings = { x: [], y: [] };
   curve.peaks.forEach(({ kind, at }, pressure) => {
-    if (kind === "peak") { rings.x.push(at + 0.36); rings.y.push(pressure + 0.34); }
+    if (kind === "peak") { rings.x.push(at + (roomy ? 0.36 : 0)); rings.y.push(pressure + (roomy ? 0.34 : 0)); }
   });
   const stops = data.colours.friction;
   const cells = {

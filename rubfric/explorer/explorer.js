@@ -235,7 +235,7 @@ async function begin() {
     numbers = await unpack(data.pictures);
   } catch {
     byId("notice").hidden = false;
-    byId("notice").textContent = "This browser cannot unpack the pictures of the block; Chrome 103, Firefox 113, Safari 16.4 and later can.";
+    byId("notice").textContent = "This browser cannot unpack the pictures of the block; Chrome 80, Firefox 113, Safari 16.4 and later can.";
   }
   choose({});
 }

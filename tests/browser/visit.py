@@ -77,7 +77,8 @@ def open_explorer(browser: WebDriver, path: Path, choice: str = "", fresh: bool 
     It is loaded where another page is open, or where it has to be ``fresh``: loading takes longer than all the rest.
     """
     address = path.resolve().as_uri()
-    if not fresh and browser.current_url.partition("#")[0] == address:
+    drawn = browser.execute_script("return document.body !== null && 'shown' in document.body.dataset")
+    if drawn and not fresh and browser.current_url.partition("#")[0] == address:
         show(browser, choice)
         return
     browser.get("about:blank")
