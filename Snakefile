@@ -9,6 +9,7 @@ from rubfric.atomic import check_folder, check_place
 from rubfric.campaign import Campaign
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
 from rubfric.records import check_records
+from rubfric.rig.files import rig_files
 
 min_version("9.0")
 
@@ -19,6 +20,7 @@ configfile: "config/config.yaml"
 # In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
 try:
     CAMPAIGN = Campaign.from_config(config)
+    RIG_FILES = rig_files(CAMPAIGN.rig)
 except InvalidInput as error:
     sys.exit(f"The config is wrong: {error}.")
 try:
@@ -35,6 +37,7 @@ include: "workflow/rules/scenes.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
+include: "workflow/rules/rig.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/stability.smk"
 
@@ -46,6 +49,7 @@ rule all:
         rules.campaign.output,
         MARCH_FILES,
         TABLES,
+        RIG_TABLES,
         FIGURES,
         rules.march_figure.output,
 

@@ -27,12 +27,13 @@ from rubfric.choices import (
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.presets import read_numerics
+from rubfric.rigchoice import RigChoice, read_rig
 from rubfric.road import SineScale, scales_from_config
 from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "numerics", "presets", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "rig", "numerics", "presets", "rubbers", "roads"),
 )
 # What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
 _NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
@@ -67,6 +68,7 @@ class Campaign:
     aspect_study : AspectStudy
     transient : TransientChoice
     figures : FigureChoice
+    rig : RigChoice
     numerics : Numerics
     presets : dict of str to Numerics
         Every preset, by name.
@@ -84,6 +86,7 @@ class Campaign:
     aspect_study: AspectStudy
     transient: TransientChoice
     figures: FigureChoice
+    rig: RigChoice
     numerics: Numerics
     presets: dict[str, Numerics]
 
@@ -112,6 +115,7 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
+            rig=read_rig(config["rig"]),
             numerics=numerics,
             presets=presets,
         )

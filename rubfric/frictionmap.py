@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from rubfric.arrays import Real
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.multiscale import total_error, total_friction
+
+Array = NDArray[np.float64]
 
 _VARIABLES = ("friction_coefficient", "friction_coefficient_error")
 
@@ -33,23 +36,27 @@ class FrictionCurve:
         Friction coefficients there and their estimated absolute errors, dimensionless.
     """
 
-    speeds: Real
-    friction: Real
-    error: Real
+    speeds: Array
+    friction: Array
+    error: Array
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "_friction", _through(np.log(self.speeds), self.friction))
-        object.__setattr__(self, "_error", _through(np.log(self.speeds), self.error))
+    @cached_property
+    def _friction(self) -> Callable[[Array], Array]:
+        return _through(np.log(self.speeds), self.friction)
 
-    def __call__(self, speed: Any) -> Real:
+    @cached_property
+    def _error(self) -> Callable[[Array], Array]:
+        return _through(np.log(self.speeds), self.error)
+
+    def __call__(self, speed: Any) -> Array:
         """Return friction coefficients at speeds (mm/s, any shape)."""
-        return self._at(speed, getattr(self, "_friction"))  # noqa: B009
+        return self._at(speed, self._friction)
 
-    def error_at(self, speed: Any) -> Real:
+    def error_at(self, speed: Any) -> Array:
         """Return the interpolated errors of the friction coefficients at speeds (mm/s, any shape)."""
-        return self._at(speed, getattr(self, "_error"))  # noqa: B009
+        return self._at(speed, self._error)
 
-    def _at(self, speed: Any, curve: Callable[[Real], Real]) -> Real:
+    def _at(self, speed: Any, curve: Callable[[Array], Array]) -> Array:
         slowest, fastest = self.speeds[0], self.speeds[-1]
         inside = curve(np.log(np.clip(speed, slowest, fastest)))
         return np.asarray(inside * np.minimum(np.asarray(speed) / slowest, 1.0))
@@ -69,10 +76,10 @@ class FrictionMap:
         Friction coefficients and their estimated absolute errors, dimensionless.
     """
 
-    speeds: Real
-    pressures: Real
-    friction: Real
-    error: Real
+    speeds: Array
+    pressures: Array
+    friction: Array
+    error: Array
 
     @classmethod
     def from_campaign(cls, campaign: xr.Dataset, aspect: float, scale: int | None = None) -> FrictionMap:
@@ -138,7 +145,7 @@ def _chosen(field: xr.DataArray, aspect: float, scale: int | None) -> xr.DataArr
     return field
 
 
-def _through(places: Real, values: Real) -> Callable[[Real], Real]:
+def _through(places: Array, values: Array) -> Callable[[Array], Array]:
     """Return a monotone piecewise cubic through points along the first axis; a constant through one."""
     if places.size == 1:
         return lambda place: np.broadcast_to(values[0], np.shape(place) + values.shape[1:])

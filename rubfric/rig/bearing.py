@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.errors import InvalidInput
+from rubfric.rig.estimate import centre
 from rubfric.rig.record import Record
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.speed import cells
 from rubfric.rig.tare import find_zero
 from rubfric.rig.windows import find_windows
-from rubfric.rig.estimate import centre
 
 # Windows that a dependence on speed is drawn through, at least, and by what factor their speeds must differ.
 _FEWEST, _SPAN = 4, 3.0
@@ -70,12 +70,12 @@ def measured_drag(pull: Record, settings: Settings) -> Drag:
         if window.end - window.start < settings.windows.least_samples:
             continue
         place = centre(pull.time[part], pull.displacement[part], 3)
-        force = centre(pull.time[part], traction[part], 2)
+        pulled = centre(pull.time[part], traction[part], 2)
         way = np.sign(place.slope)
         inertia = 1e-3 * settings.sled_mass * place.curvature * way
         speeds.append(abs(place.slope))
-        forces.append(abs(force.value) - inertia)
-        errors.append(np.hypot(force.value_error, 1e-3 * settings.sled_mass * place.curvature_error))
+        forces.append(abs(pulled.value) - inertia)
+        errors.append(np.hypot(pulled.value_error, 1e-3 * settings.sled_mass * place.curvature_error))
     if not speeds:
         raise InvalidInput(f"{pull.name} shows no unloaded sliding from which the drag of the bearings could be taken")
     weights = 1.0 / np.maximum(errors, 1e-12 * max(1.0, *map(abs, forces)))
@@ -84,9 +84,9 @@ def measured_drag(pull: Record, settings: Settings) -> Drag:
     found, *_ = np.linalg.lstsq(powers * weights[:, None], np.array(forces) * weights, rcond=None)
     spread = np.array(forces) - powers @ found
     freedom = max(len(speeds) - found.size, 1)
-    error = max(
+    doubt = max(
         float(np.sqrt(spread @ spread / freedom / len(speeds))), float(np.min(errors)), float(zero.traction_error.max())
     )
     force, damping = float(found[0]), float(found[1]) if sloped else 0.0
-    told = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * error:.2g} N"
-    return Drag(force, damping, settings.bearing.coefficient, error, (f"{told}, from {pull.name}",))
+    told = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * doubt:.2g} N"
+    return Drag(force, damping, settings.bearing.coefficient, doubt, (f"{told}, from {pull.name}",))

@@ -102,7 +102,10 @@ def _fit(time: Real, values: Real, order: int, longer: float) -> _Fit:
     scale = reach * np.array([1.0, 1.0 / half, 2.0 / half**2])[:kept]
     value, error = np.zeros(3), np.zeros(3)
     value[:kept], error[:kept] = found[:kept] * scale, errors[:kept] * scale
-    return _Fit(Centre(*value.tolist(), *error.tolist(), effective, freedom), float(found[-1]), float(errors[-1]))
+    names = ("value", "slope", "curvature")
+    told = dict(zip(names, value.tolist(), strict=True))
+    told |= {f"{name}_error": one for name, one in zip(names, error.tolist(), strict=True)}
+    return _Fit(Centre(effective=effective, freedom=freedom, **told), float(found[-1]), float(errors[-1]))
 
 
 def correlation_length(residuals: Real) -> float:

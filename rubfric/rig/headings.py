@@ -75,7 +75,9 @@ def recognise(
     places = [column.place for column in found.values()]
     for quantity, column in found.items():
         if places.count(column.place) > 1:
-            raise InvalidInput(f"{path} has one column, {headings[column.place]!r}, for {quantity} and another quantity")
+            raise InvalidInput(
+                f"{path} has one column, {headings[column.place]!r}, for {quantity} and another quantity"
+            )
     return found
 
 
@@ -95,7 +97,8 @@ def _place(path: str, quantity: str, headings: Sequence[str], names: Sequence[st
     if len(found) != 1:
         many = "no column that looks like" if not found else f"{len(found)} columns that may be"
         raise InvalidInput(
-            f"{path} has {many} {quantity}; its columns are {listed}: name it under columns in the YAML file of --columns"
+            f"{path} has {many} {quantity}; its columns are {listed}: name it under columns in the "
+            "YAML file of --columns"
         )
     return found[0]
 

@@ -126,7 +126,7 @@ def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> 
         pressure=normal.value / settings.area,
         pressure_ci95=float(np.hypot(pressed, gains[0] * normal.value)) / settings.area,
         friction_coefficient=ratio,
-        friction_coefficient_ci95=float(np.hypot(resisted / normal.value, ratio * np.hypot(*gains))),
+        friction_coefficient_ci95=float(np.hypot(resisted / normal.value, ratio * float(np.linalg.norm(gains)))),
     )
     length = time[-1] - time[0]
     changes = (abs(normal.slope) * length / normal.value, abs(rest.slope) * length / max(abs(friction), 1e-30))

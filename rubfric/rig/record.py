@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -101,12 +102,14 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
     lost = int(np.count_nonzero(~whole))
     if lost > _MOST_MISSING * whole.size:
-        raise InvalidInput(f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %")
+        raise InvalidInput(
+            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %"
+        )
     if lost:
         told.append(f"{lost} rows that lack a value left out")
     values = _in_order(name, values[:, whole], told)
     _check_length(name, values)
-    overloaded = ~np.isfinite(values[1:3]).all(axis=0)
+    overloaded = np.asarray(~np.isfinite(values[1:3]).all(axis=0))
     values = np.where(np.isfinite(values), values, 0.0)
     spiky = _spikes(values, overloaded)
     if np.count_nonzero(spiky) > _MOST_SPIKES * spiky.size:
@@ -114,7 +117,8 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     if spiky.any():
         told.append(f"{np.count_nonzero(spiky)} rows with spikes left out")
         values, overloaded = values[:, ~spiky], overloaded[~spiky]
-    record = Record(name, source, *values, overloaded=overloaded)
+    time, normal, traction, place = values
+    record = Record(name, source, time, normal, traction, place, overloaded)
     gaps = len(record.stretches()) - 1
     if gaps:
         told.append(f"{gaps} gaps in time, which no window spans")
@@ -140,11 +144,12 @@ def _in_order(name: str, values: Real, told: list[str]) -> Real:
     stamps, place, count = np.unique(values[0], return_inverse=True, return_counts=True)
     if stamps.size < values.shape[1]:
         told.append(f"{values.shape[1] - stamps.size} time stamps stand more than once: means taken")
-        sums = np.zeros((4, stamps.size))
-        np.add.at(sums, (slice(None), place), np.where(np.isfinite(values), values, 0.0))
-        over = np.zeros((4, stamps.size), dtype=bool)
-        np.logical_or.at(over, (slice(None), place), ~np.isfinite(values))
-        values = np.where(over, np.inf, sums / count)
+        finite = np.isfinite(values)
+        sums = np.stack(
+            [np.bincount(place, np.where(known, row, 0.0)) for row, known in zip(values, finite, strict=True)]
+        )
+        lost = np.stack([np.bincount(place, ~known) for known in finite])
+        values = np.where(lost > 0.0, np.inf, sums / count)
         values[0] = stamps
     return values
 
@@ -154,7 +159,7 @@ def _check_clock(name: str, time: Real) -> None:
     falls = np.flatnonzero(np.diff(time) < 0.0) + 1
     stretches = [part for part in np.split(time, falls) if part.size >= _LONG_STRETCH]
     stretches.sort(key=lambda part: float(part[0]))
-    for one, other in zip(stretches, stretches[1:], strict=False):
+    for one, other in pairwise(stretches):
         if other[0] < one[-1]:
             raise InvalidInput(
                 f"{name} has a clock that begins again, at {other[0]:g} s after {one[-1]:g} s: keep one run in a file"

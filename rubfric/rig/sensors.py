@@ -80,9 +80,7 @@ class Ideal:
         return self.motion.state(np.asarray(time) - self.release)[1]
 
 
-def ideal(
-    sled: Sled, curve: FrictionCurve, motion: Motion, pressure: float, weight: float, sensors: Sensors
-) -> Ideal:
+def ideal(sled: Sled, curve: FrictionCurve, motion: Motion, pressure: float, weight: float, sensors: Sensors) -> Ideal:
     """Return what perfect sensors would record of a run: unloaded, loaded, released, stopped and unloaded again.
 
     The weight is hung on the rope and taken off together with the normal force; but for the slide, the sled is held.

@@ -1,4 +1,4 @@
-"""What the user says of a rig and its files: columns, units, area, zeros, bearings and windows, in a small YAML file."""
+"""What the user says of a rig and its files: columns, units, area, zeros, bearings and windows, in a YAML file."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from rubfric import checks
 from rubfric.errors import InvalidInput
 from rubfric.rig.textfile import DECIMALS, SEPARATORS
 from rubfric.rig.units import QUANTITIES, check_factor
+from rubfric.rigchoice import TRACTIONS
 
-TRACTIONS = ("rubber", "rope")
 _FORCES = ("normal", "traction")
 
 

@@ -99,14 +99,14 @@ def _unloaded(record: Record, force: Real, name: str) -> list[Flags]:
     end = count - int(np.argmin(low[::-1]))
     if abs(float(blocks[0])) > _LARGEST_OFFSET * height:
         raise InvalidInput(
-            f"{record.name} begins with a {name} force of {blocks[0]:.4g} N, too much beside the {height:.4g} N by which "
-            f"it changes to be an offset; {ask}"
+            f"{record.name} begins with a {name} force of {blocks[0]:.4g} N, too much beside the {height:.4g} N by "
+            f"which it changes to be an offset; {ask}"
         )
     places = np.arange(force.size)
     first = places < (1.0 - _GUARD) * begin * size
     if np.count_nonzero(first) < _FEWEST:
         raise InvalidInput(
-            f"{record.name} has {np.count_nonzero(first)} samples before loading, but needs {_FEWEST} to tare from; {ask}"
+            f"{record.name} has {np.count_nonzero(first)} samples before loading, but needs {_FEWEST}; {ask}"
         )
     last = places >= end * size + _GUARD * (force.size - end * size)
     return [first, last] if np.count_nonzero(last) >= _FEWEST else [first]
@@ -118,7 +118,9 @@ def _line(time: Real, force: Real, stretches: list[Flags]) -> tuple[Real, Real, 
     Also how many samples are worth an independent one.
     """
     means = [centre(time[part], force[part], 0) for part in stretches]
-    longer = float(np.mean([np.count_nonzero(part) / one.effective for part, one in zip(stretches, means, strict=True)]))
+    longer = float(
+        np.mean([np.count_nonzero(part) / one.effective for part, one in zip(stretches, means, strict=True)])
+    )
     if len(means) == 1:
         return np.full(force.size, means[0].value), np.full(force.size, means[0].value_error), longer
     first, last = (float(time[part].mean()) for part in stretches)

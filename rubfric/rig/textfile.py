@@ -155,7 +155,9 @@ def _numbers(
     if len(bad) > _MOST_UNREADABLE * len(filled) + 1:
         line, row = bad[0]
         shown = "; ".join(row)[:60]
-        raise InvalidInput(f"{path} has {len(bad)} unreadable rows of {len(filled)}, the first of them line {line}: {shown!r}")
+        raise InvalidInput(
+            f"{path} has {len(bad)} unreadable rows of {len(filled)}, the first of them line {line}: {shown!r}"
+        )
     notes = (f"{len(bad)} unreadable rows left out, the first of them line {bad[0][0]}",) if bad else ()
     return np.array(values, dtype=np.float64).reshape(-1, count), notes
 
@@ -168,8 +170,8 @@ def _decimal(path: str, words: Sequence[str]) -> str:
         return "."
     if any("." in word for word in numbers) or any(word.count(",") > 1 for word in commas):
         raise InvalidInput(
-            f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of thousands, "
-            "or say in the YAML file of --columns which one is the decimal"
+            f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
+            "thousands, or say in the YAML file of --columns which one is the decimal"
         )
     if all(re.match(r"^[+-]?[1-9]\d{0,2},\d{3}$", word) for word in commas):
         raise InvalidInput(
@@ -186,8 +188,6 @@ def _number(word: str, mark: str) -> float | None:
         return math.nan
     if plain.casefold() in _OVERLOADED:
         return math.inf
-    if mark == ",":
-        plain = plain.replace(".", "").replace(",", ".")
-    else:
-        plain = plain.replace(",", "")
+    # The other mark parts thousands, where the user has said so.
+    plain = plain.replace(".", "").replace(",", ".") if mark == "," else plain.replace(",", "")
     return float(plain) if _NUMBER.match(plain) and plain.count(".") <= 1 else None

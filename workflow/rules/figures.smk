@@ -11,9 +11,10 @@ CAMPAIGN_FIGURES = {
     "fig7": {"aspect": CAMPAIGN.aspect, "pressure": CAMPAIGN.figures.total_pressure},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
+RIG_FIGURES = ["fig8", "fig9"]
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
-    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES])
+    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES])
     for kind in ("pdf", "png")
 ]
 
