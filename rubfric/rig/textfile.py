@@ -124,7 +124,7 @@ def _headings(rows: Sequence[Sequence[str]]) -> int | None:
         below = place + 2 if _is_units(rows[place + 1], count) else place + 1
         first = [row for row in rows[below : below + 2 * _ROWS_TO_LOOK_AT] if any(word.strip() for word in row)]
         good = [row for row in first if len(row) == count and any(_looks_numeric(word) for word in row)]
-        if good and len(good) >= min(_ROWS_TO_LOOK_AT, len(first)):
+        if good and good[0] is first[0] and len(good) >= min(_ROWS_TO_LOOK_AT, len(first)):
             return place
     return None
 

@@ -50,8 +50,8 @@ def split_heading(heading: str) -> tuple[str, str]:
     if bracketed:
         return bracketed["name"], bracketed["unit"]
     appended = _APPENDED.match(text)
-    # F_N is a name, of one letter and its index.
-    if appended and len(appended["name"]) > 1 and is_unit(appended["unit"]):
+    # F_N is the name of a normal force, not a force in newtons.
+    if appended and appended["name"].casefold() not in ("", "f") and is_unit(appended["unit"]):
         return appended["name"], appended["unit"]
     return text, ""
 
