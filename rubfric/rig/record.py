@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from rubfric.arrays import Flags, Real
 from rubfric.errors import InvalidInput
@@ -133,10 +134,11 @@ def _check_length(name: str, values: Real) -> None:
 
 def _in_order(name: str, values: Real, told: list[str]) -> Real:
     """Return samples by time, rows that stand twice once, and the mean of samples of one time."""
-    _, first = np.unique(values, axis=1, return_index=True)
-    if first.size < values.shape[1]:
-        told.append(f"{values.shape[1] - first.size} rows that stand twice left out")
-        values = values[:, np.sort(first)]
+    if np.unique(values[0]).size < values.shape[1]:
+        _, first = np.unique(values, axis=1, return_index=True)
+        if first.size < values.shape[1]:
+            told.append(f"{values.shape[1] - first.size} rows that stand twice left out")
+            values = values[:, np.sort(first)]
     time = values[0]
     if np.any(np.diff(time) < 0.0):
         _check_clock(name, time)
@@ -181,9 +183,7 @@ def _spikes(values: Real, overloaded: Flags) -> Flags:
     """
     found = np.zeros(values.shape[1], dtype=bool)
     for channel in values[1:]:
-        padded = np.pad(channel, _HALF, mode="edge")
-        around = np.lib.stride_tricks.sliding_window_view(padded, 2 * _HALF + 1)
-        distance = np.abs(channel - np.median(around, axis=1))
+        distance = np.abs(channel - median_filter(channel, 2 * _HALF + 1, mode="nearest"))
         usual = 1.4826 * np.median(distance)
         changes = np.abs(np.diff(channel))
         moving = changes[changes > 0.0]

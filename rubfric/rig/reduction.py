@@ -14,7 +14,7 @@ from rubfric.rig.clipping import clipped
 from rubfric.rig.points import Loaded, Point, Rejected, evaluate
 from rubfric.rig.record import Record, read_record
 from rubfric.rig.settings import Settings
-from rubfric.rig.speed import Cells, cells
+from rubfric.rig.speed import cells
 from rubfric.rig.tare import Zero, find_zero
 from rubfric.rig.windows import Window, find_windows
 
@@ -89,7 +89,7 @@ def reduce_record(record: Record, settings: Settings, drag: Drag) -> Reduced:
     points = tuple(one for one in found if isinstance(one, Point))
     rejected = tuple(one for one in found if isinstance(one, Rejected))
     if not windows:
-        rejected = (_no_window(record, pieces, settings),)
+        rejected = (_no_window(record, settings),)
     bearings = _about_bearings(settings, drag)
     return Reduced(record.name, record.source, points, rejected, (*record.notes, *zero.notes, *notes, *bearings))
 
@@ -122,10 +122,12 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
     return Loaded(record, normal, traction, flags, plateau, zero), notes
 
 
-def _no_window(record: Record, pieces: Cells, settings: Settings) -> Rejected:
+def _no_window(record: Record, settings: Settings) -> Rejected:
     travel = float(np.ptp(record.displacement))
-    rest = "the sled slides in no stretch that is long enough" if pieces.moving.any() else "the sled rests"
-    reason = f"{rest}: the displacement changes by {travel:.2g} mm in all"
+    least = settings.windows.least_travel
+    reason = f"the sled slid only {travel:.3g} mm in all, less than {least:g} mm"
+    if travel >= least:
+        reason = f"the displacement changes by {travel:.3g} mm, but in no stretch as a sliding sled's does"
     return Rejected(float(record.time[0]), float(record.time[-1]), record.time.size, np.nan, np.nan, reason)
 
 
