@@ -129,7 +129,7 @@ def slide(sled: Sled, curve: FrictionCurve, pressure: float, weight: float, most
     )
     if not solved.success:
         raise NotConverged("motion of the sled", int(solved.nfev), float(solved.t[-1]), "time reached, s")
-    ends = ["stopped by hand", "end of the travel", "faster than what was simulated"]
+    ends = ["stopped by hand", f"stopped after {distance:g} mm", "faster than what was simulated"]
     end = ends[0] if solved.status == 0 else ends[1] if solved.t_events[0].size else ends[2]
     return Motion(float(solved.t[-1]), solved.sol, end)
 

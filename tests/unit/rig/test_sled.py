@@ -23,7 +23,7 @@ def test_without_resistance_the_sled_falls_with_the_weight() -> None:
     sled = Sled(area=100.0, mass=3.0, travel=300.0)
     motion = slide(sled, NO_FRICTION, 1.0, 1.0, 10.0, 300.0)
     acceleration = GRAVITY / 4.0
-    assert motion.end == "end of the travel"
+    assert motion.end == "stopped after 300 mm"
     assert motion.duration == pytest.approx(np.sqrt(600.0 / acceleration), rel=1e-6)
     times = np.linspace(0.0, motion.duration, 11)
     np.testing.assert_allclose(motion.state(times), [0.5 * acceleration * times**2, acceleration * times], rtol=1e-5)
