@@ -26,12 +26,13 @@ from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.presets import read_numerics
 from rubfric.readings import ClaimsChoice, read_claims
+from rubfric.rigchoice import RigChoice, read_rig
 from rubfric.road import SineScale, scales_from_config
 from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "claims", "numerics", "presets", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "rig", "claims", "numerics", "presets", "rubbers", "roads"),
 )
 # Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
 _LONGEST_PATH, _LONGEST_NAME = 1000, 255
@@ -64,6 +65,7 @@ class Campaign:
     aspect_study : AspectStudy
     transient : TransientChoice
     figures : FigureChoice
+    rig : RigChoice
     claims : ClaimsChoice
     numerics : Numerics
     presets : dict of str to Numerics
@@ -82,6 +84,7 @@ class Campaign:
     aspect_study: AspectStudy
     transient: TransientChoice
     figures: FigureChoice
+    rig: RigChoice
     claims: ClaimsChoice
     numerics: Numerics
     presets: dict[str, Numerics]
@@ -111,6 +114,7 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
+            rig=read_rig(config["rig"]),
             claims=read_claims(config["claims"], presets),
             numerics=numerics,
             presets=presets,
