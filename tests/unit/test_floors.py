@@ -46,7 +46,7 @@ FLOORS = [
     {"tables"},
     {"rig", "observation"},
     {"evidence"},
-    {"judgement"},
+    {"judgement", "rigevidence"},
     {"claimspage"},
     {"figures"},
     {"explorer"},

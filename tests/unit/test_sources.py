@@ -66,7 +66,7 @@ def test_scenes_do_not_depend_on_what_comes_after_them() -> None:
     assert {"contact.py", "block.py", "steady.py", "energy.py", "dataset.py", "checks.py"} <= files
 
 
-@pytest.mark.parametrize("module", ["rubfric.simulations", "rubfric.figures.fig9", "numpy", "rubfric", ""])
+@pytest.mark.parametrize("module", ["rubfric.simulations", "rubfric.figures.fig99", "numpy", "rubfric", ""])
 def test_unknown_module_is_refused(module: str) -> None:
     with pytest.raises(ModuleNotFoundError, match=f"^{module} is no module of rubfric$"):
         sources(module)

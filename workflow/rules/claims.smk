@@ -13,6 +13,7 @@ JUDGED = {
     "campaign": f"{RESULTS}/campaign.nc",
     "profiles": [scene_file(name) for name in CAMPAIGN.field_scenes()],
     "marches": MARCH_FILES,
+    "points": f"{RESULTS}/tables/rig_points.csv",
     "readings": {
         name: [reading_file(name, batch) for batch in OBSERVED[name]]
         for name in OBSERVED
@@ -45,10 +46,11 @@ rule reading:
 
 rule claims:
     input:
-        package_files("rubfric.claimspage", "rubfric.observation"),
+        package_files("rubfric.claimspage", "rubfric.rigevidence"),
         script="workflow/scripts/judge_claims.py",
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
+            JUDGED["points"],
             *(path for paths in JUDGED["readings"].values() for path in paths),
         ],
     output:

@@ -12,6 +12,7 @@ from rubfric.evidence import depth_evidence, gather, march_evidence, march_note
 from rubfric.judgement import EVERY, claims_table, evidence_table
 from rubfric.observation import among, over_axes, profile_row, refusals, table
 from rubfric.readings import AS_CONFIGURED
+from rubfric.rigevidence import rig_evidence, rig_note
 from rubfric.statements import CLAIMS
 from rubfric.tables import read_table, write_table
 
@@ -21,6 +22,7 @@ def main(
     campaign: str,
     profiles: list[str],
     marches: list[str],
+    points: str,
     readings: dict[str, list[str]],
     choice: dict[str, Any],
     about: dict[str, str],
@@ -33,6 +35,8 @@ def main(
         Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
     campaign, profiles, marches : str and lists of str
         The collection of all scenes, results of those whose depth is looked at, and marches.
+    points : str
+        Table of the points of the test rig.
     readings : dict of str to list of str
         Observations of each other reading.
     choice : dict
@@ -42,14 +46,16 @@ def main(
     """
     difference, profiled = choice["difference"], choice["profiled"]
     common = {name: choice[name] for name in ("aspect", "studied", "difference")}
+    rig = read_table(points, ("run", "kind", "source"))
     evidence = {
         AS_CONFIGURED: [
             *gather(read(campaign), **common),
             *depth_evidence(table(profile_row(load(path)) for path in profiles), difference),
             *(march_evidence(load(path), choice["saturation"]) for path in marches),
+            *rig_evidence(rig),
         ]
     }
-    notes = {AS_CONFIGURED: {"C5": march_note(evidence[AS_CONFIGURED])}}
+    notes = {AS_CONFIGURED: {"C5": march_note(evidence[AS_CONFIGURED]), "C8": rig_note(rig)}}
     for reading, paths in readings.items():
         rows = pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
         evidence[reading] = [
