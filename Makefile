@@ -1,7 +1,9 @@
 # make figures   set up a local environment and run the campaign: every table and figure, in results/
 # make test      set up and pass the tests
+# make test-browser  pass the tests of the page to explore, in Chromium
+# make test-cluster  pass the tests on a SLURM cluster of one node, which Debian's slurm-wlm and munge make here
 # make check     formatting, lint, types, workflow lint
-# make bench     time scenes in-process and the campaign against its floor; writes the tables of the README
+# make bench     time scenes in-process, the campaign against its floor, and planning; writes the tables of the pages
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
 # make stability try the matrix of extremes, draw its map; writes its table of the README
 # make report    gather every figure and table with its caption in one page, results/report.html
@@ -16,7 +18,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures report test check docs bench accuracy stability format clean distclean
+.PHONY: figures report test test-browser test-cluster check docs bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -32,12 +34,19 @@ docs: $(VENV)/.ready
 	python tests/unit/architecture.py
 
 test: $(VENV)/.ready
-	python -m pytest
+	python -m pytest -n $(JOBS)
+
+test-browser: $(VENV)/.ready
+	python -m pytest tests/browser
+
+test-cluster: $(VENV)/.ready
+	python -m pytest tests/cluster
 
 check: $(VENV)/.ready
 	ruff check .
 	ruff format --check .
 	mypy
+	MYPYPATH=tests/workflow mypy tests/cluster
 	snakefmt --check Snakefile workflow
 	snakemake --lint
 
@@ -45,6 +54,7 @@ bench: $(VENV)/.ready
 	python tests/benchmark/scenes.py
 	python tests/benchmark/campaign.py
 	python tests/benchmark/transient.py
+	python tests/benchmark/dag.py
 
 accuracy: $(VENV)/.ready
 	snakemake -j$(JOBS) accuracy

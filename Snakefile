@@ -9,6 +9,7 @@ from rubfric.atomic import check_folder, check_place
 from rubfric.campaign import Campaign
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
 from rubfric.records import check_records
+from rubfric.rig.files import rig_files
 
 min_version("9.0")
 
@@ -22,6 +23,7 @@ report: "workflow/report/workflow.rst"
 # In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
 try:
     CAMPAIGN = Campaign.from_config(config)
+    RIG_FILES = rig_files(CAMPAIGN.rig)
 except InvalidInput as error:
     sys.exit(f"The config is wrong: {error}.")
 try:
@@ -38,6 +40,9 @@ include: "workflow/rules/scenes.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
+include: "workflow/rules/rig.smk"
+include: "workflow/rules/claims.smk"
+include: "workflow/rules/explorer.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/stability.smk"
 
@@ -45,12 +50,15 @@ include: "workflow/rules/stability.smk"
 rule all:
     default_target: True
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         MARCH_FILES,
         TABLES,
+        RIG_TABLES,
         FIGURES,
         rules.march_figure.output,
+        rules.claims.output,
+        rules.explorer.output,
 
 
 # For the report, which runs nothing: the campaign, and what there is of accuracy and stability.

@@ -9,10 +9,7 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
-from pathlib import Path
 from typing import Any
-
-import yaml
 
 from rubfric import checks
 from rubfric.choices import (
@@ -24,18 +21,19 @@ from rubfric.choices import (
     read_transient,
     scale_number,
 )
+from rubfric.configfile import overlaid
 from rubfric.errors import InvalidInput
 from rubfric.material import PLANES, Material
 from rubfric.presets import read_numerics
+from rubfric.readings import ClaimsChoice, read_claims
+from rubfric.rigchoice import RigChoice, read_rig
 from rubfric.road import SineScale, scales_from_config
 from rubfric.scene import KINEMATICS, Numerics, Scene
 
 _KEYS = (
     *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "numerics", "presets", "rubbers", "roads"),
+    *("grid", "aspect_study", "transient", "figures", "rig", "claims", "numerics", "presets", "rubbers", "roads"),
 )
-# What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
-_NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
 # Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
 _LONGEST_PATH, _LONGEST_NAME = 1000, 255
 
@@ -67,6 +65,8 @@ class Campaign:
     aspect_study : AspectStudy
     transient : TransientChoice
     figures : FigureChoice
+    rig : RigChoice
+    claims : ClaimsChoice
     numerics : Numerics
     presets : dict of str to Numerics
         Every preset, by name.
@@ -84,6 +84,8 @@ class Campaign:
     aspect_study: AspectStudy
     transient: TransientChoice
     figures: FigureChoice
+    rig: RigChoice
+    claims: ClaimsChoice
     numerics: Numerics
     presets: dict[str, Numerics]
 
@@ -112,6 +114,8 @@ class Campaign:
             aspect_study=read_aspect_study(config["aspect_study"], len(road)),
             transient=read_transient(config["transient"], len(road)),
             figures=read_figures(config["figures"], len(road), velocities, pressures),
+            rig=read_rig(config["rig"]),
+            claims=read_claims(config["claims"], presets),
             numerics=numerics,
             presets=presets,
         )
@@ -178,6 +182,28 @@ class Campaign:
         for scale, velocity, pressure, aspect in product(study.scales, self.velocities, study.pressures, study.aspects):
             yield self.scene(scale, velocity, pressure, aspect)
 
+    def reading(self, name: str) -> Campaign:
+        """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
+        other = self.claims.readings[checks.one_of("reading", name, self.claims.readings)]
+        return replace(
+            self,
+            material=other.rubber(self.material),
+            plane=other.plane or self.plane,
+            kinematics=other.kinematics or self.kinematics,
+            numerics=self.presets[self.claims.preset],
+        )
+
+    def words(self) -> str:
+        """Return in a sentence what is run: rubber, road, plane, kinematics, grid and accuracy."""
+        rubber, numerics = self.material, self.numerics
+        return (
+            f"Rubber {rubber.name} ({rubber.moduli.replace('_', '-')} modulus, {rubber.bulk} bulk) on road "
+            f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} scales, "
+            f"{checks.written(self.velocities[0])} to {checks.written(self.velocities[-1])} mm/s, "
+            f"{checks.written(self.pressures[0])} to {checks.written(self.pressures[-1])} MPa; friction to "
+            f"{100.0 * numerics.accuracy:g} %."
+        )
+
     def marches(self) -> dict[str, Scene]:
         """Return the scenes that are marched in time, by name."""
         chosen = self.transient
@@ -206,29 +232,7 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    if not paths:
-        raise InvalidInput("no config was given: name at least one file")
-    merged: dict[str, Any] = {}
-    for path in paths:
-        try:
-            entry = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        except _NO_YAML as error:
-            raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
-        if not isinstance(entry, Mapping):
-            raise InvalidInput(
-                f"{os.fspath(path)} holds {checks.shown(entry)}, but must hold the keys {', '.join(_KEYS)}"
-            )
-        merged = _overlay(merged, entry)
-    return Campaign.from_config(merged)
-
-
-def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
-    """Merge two configs as Snakemake does: mappings key by key, anything else is replaced."""
-    merged = dict(base)
-    for key, value in above.items():
-        nested = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
-        merged[key] = _overlay(merged[key], value) if nested else value
-    return merged
+    return Campaign.from_config(overlaid(paths, _KEYS))
 
 
 def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:

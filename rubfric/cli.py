@@ -1,4 +1,4 @@
-"""One scene from the shell: ``rubfric simulate``, sliding steadily, and ``rubfric march``, step by step."""
+"""The shell: one scene by ``rubfric simulate``, sliding steadily, or ``rubfric march``, step by step; the test rig."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from rubfric import campaign as campaigns
 from rubfric.choices import STARTS
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.material import PLANES
+from rubfric.rigcli import add_rig
 from rubfric.scene import KINEMATICS, Scene
 
 _EXAMPLE = """\
@@ -79,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
         "--restart", type=Path, metavar="FILE", help="go on from this file where it exists, and leave the state in it"
     )
     march.set_defaults(run=_march)
+    add_rig(commands, _configs)
     return parser
 
 

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE, CONFIG = ROOT / "config" / "README.md", ROOT / "config" / "config.yaml"
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 
-_UNITS = re.compile(r"[,;] (dimensionless|mm/s|MPa|1/mm|t/mm³|mm|s)(?=[,;.])")
+_UNITS = re.compile(r"[,;] (dimensionless|mm/s|MPa|1/mm|t/mm³|mm²|mm|kg|Hz|N|s)(?=[,;.])")
 _HEAD = "| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n"
 _NOTHING = "–"
 _INTRODUCTION = """\
@@ -150,6 +150,8 @@ def _allowed(node: Mapping[str, Any]) -> str:
         few = f"at least {node['minItems']}" if node.get("minItems") else "any number of them"
         alike = ", no two alike" if node.get("uniqueItems") else ""
         return f"list, {few}{alike}; each a {_allowed(node['items'])}"
+    if isinstance(node.get("type"), list):
+        return " or ".join("`null`" if kind == "null" else _allowed({**node, "type": kind}) for kind in node["type"])
     if node.get("type") == "string":
         letters = "word of letters, digits, `-` and `_`" if "pattern" in node else "text"
         return letters + (f", at most {node['maxLength']} long" if "maxLength" in node else "")

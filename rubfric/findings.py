@@ -63,3 +63,16 @@ def highest(path: str | os.PathLike[str]) -> str:
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
         f"and {float(top['pressure_MPa']):g} MPa"
     )
+
+
+def verdicts(path: str | os.PathLike[str]) -> str:
+    """Return in words how many of the paper's claims hold, from their table; empty where it is missing."""
+    try:
+        with open(path, encoding="utf-8", newline="") as stream:
+            rows = [row for row in csv.DictReader(stream) if row.get("verdict")]
+    except OSError:
+        return ""
+    # The campaign itself stands first; its verdicts over all pressures are the claims'.
+    found = [row["verdict"] for row in rows if (row["reading"], row["pressure_MPa"]) == (rows[0]["reading"], "all")]
+    counts = {word: found.count(word) for word in dict.fromkeys(sorted(found))}
+    return "; ".join(f"{word}: {count} of {len(found)}" for word, count in counts.items())

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 _WORDS = {
     "scene": ("scene", "scenes"),
     "march": ("march", "marches"),
+    "reading": ("batch of other readings", "batches of other readings"),
     "table": ("table", "tables"),
     "figure": ("figure", "figures"),
     "other": ("other job", "other jobs"),
@@ -39,8 +40,8 @@ class _Job:
 
 
 def kind(rule: str) -> str:
-    """Return what a rule makes: scene, march, table, figure or other."""
-    if rule in _LONG:
+    """Return what a rule makes: scene, march, reading, table, figure or other."""
+    if rule in _WORDS:
         return rule
     return next((word for word in ("table", "figure") if word in rule.split("_")), "other")
 

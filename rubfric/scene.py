@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
+from functools import lru_cache
 from typing import Any
 
 from rubfric import checks
@@ -153,7 +154,8 @@ class Scene:
 
     def parameters(self) -> dict[str, Any]:
         """Return plain nested values (numbers, words, lists) that ``from_parameters`` reads back."""
-        return json.loads(json.dumps(asdict(self)))
+        own = {each.name: getattr(self, each.name) for each in fields(self)}
+        return own | {name: _copied(_plain(own[name])) for name in ("road", "material", "numerics")}
 
     @classmethod
     def from_parameters(cls, parameters: Mapping[str, Any]) -> Scene:
@@ -168,6 +170,16 @@ class Scene:
     def digest(self) -> str:
         """SHA-256 of the parameters, for provenance."""
         return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()
+
+
+@lru_cache(maxsize=256)
+def _plain(part: SineScale | Material | Numerics) -> dict[str, Any]:
+    """Return the plain values of what thousands of scenes share; not to be changed."""
+    return json.loads(json.dumps(asdict(part)))
+
+
+def _copied(plain: dict[str, Any]) -> dict[str, Any]:
+    return {name: value.copy() if isinstance(value, list) else value for name, value in plain.items()}
 
 
 def _known(key: str, given: Any, kind: type) -> Mapping[str, Any]:

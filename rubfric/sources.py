@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import ast
+import hashlib
+import os
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+
+from rubfric.atomic import whole
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -36,6 +41,34 @@ def sources(*modules: str) -> tuple[Path, ...]:
     return tuple(sorted(found))
 
 
+@cache
+def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
+    """Keep a file in ``folder`` that stands for all ``sources(*modules)``, and return its path.
+
+    It holds their digests, and is written anew when one of them has changed: for Snakemake one input that changes with
+    any of them, so that a campaign of many scenes has one file a scene to look after, not fifty. Where it is missing it
+    gets the age of the youngest of them, and what was made since stays up to date.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        For a name that is no module of the package.
+    NotWritten
+        Where the file cannot be written.
+    """
+    paths, place = sources(*modules), Path(folder, "+".join(modules))
+    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in paths]
+    text = "\n".join(lines) + "\n"
+    known = place.read_text(encoding="utf-8", errors="replace") if place.exists() else None
+    if known != text:
+        with whole(place) as part:
+            part.write_text(text, encoding="utf-8")
+            if known is None:
+                age = max(path.stat().st_mtime_ns for path in paths)
+                os.utime(part, ns=(age, age))
+    return str(place)
+
+
 def _file(module: str) -> Path:
     path = _find(module)
     if path is None:
@@ -53,12 +86,21 @@ def _find(module: str) -> Path | None:
     return next((path for path in candidates if path.is_file()), None)
 
 
+@cache
 def _imported(path: Path) -> list[Path]:
     names: list[str] = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in _statements(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:
             # "from rubfric import dataset" names a module, "from rubfric.energy import evaluate" does not.
             names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
     return [found for found in map(_find, names) if found is not None]
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements below a node, not their expressions, which are many and import nothing."""
+    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for statement in getattr(node, part, ()):
+            yield statement
+            yield from _statements(statement)

@@ -19,6 +19,17 @@ SCALES = ((0.015, 35.0), (0.006, 80.0), (0.003, 200.0), (0.002, 300.0))
 
 SceneMaker = Callable[..., Scene]
 
+# Folders whose tests share a campaign that takes long to run: one worker does all of a folder, and begins with it.
+TOGETHER = ("workflow", "results")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep together what shares fixtures: a folder of ``TOGETHER``, else a file; the longest first."""
+    for item in items:
+        folder = item.path.parent.name
+        item.add_marker(pytest.mark.xdist_group(folder if folder in TOGETHER else item.path.stem))
+    items.sort(key=lambda item: (item.path.parent.name not in TOGETHER, item.path.parent.name != "verification"))
+
 
 @pytest.fixture(autouse=True)
 def strict_floating_point() -> Iterator[None]:

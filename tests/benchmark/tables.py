@@ -1,4 +1,4 @@
-"""Put a measured table between its markers in the README, with the machine that it was measured on."""
+"""Put a measured table between its markers in a page, with the machine that it was measured on."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ def markdown(rows: list[tuple[str, ...]]) -> str:
     return "\n".join(lines)
 
 
-def publish(marker: str, text: str) -> None:
-    """Replace what stands between ``<!-- marker -->`` and ``<!-- /marker -->`` in the README."""
+def publish(marker: str, text: str, place: Path = README) -> None:
+    """Replace what stands between ``<!-- marker -->`` and ``<!-- /marker -->`` in a page, the README by default."""
     begin, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"
-    page = README.read_text(encoding="utf-8")
+    page = place.read_text(encoding="utf-8")
     if begin not in page or end not in page:
-        raise SystemExit(f"README.md lacks the markers {begin} and {end}")
+        raise SystemExit(f"{place.name} lacks the markers {begin} and {end}")
     before, rest = page.split(begin, 1)
     after = rest.split(end, 1)[1]
-    README.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
+    place.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")

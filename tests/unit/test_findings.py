@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from rubfric.findings import findings, highest
+from rubfric.findings import findings, highest, verdicts
 
 
 @pytest.fixture
@@ -66,3 +66,13 @@ def test_highest_friction_is_told_with_its_error_and_place(tmp_path: Path) -> No
     assert highest(table) == ""
     table.unlink()
     assert highest(table) == ""
+
+
+def test_verdicts_are_counted_over_all_pressures_of_the_campaign(tmp_path: Path) -> None:
+    path = tmp_path / "claims.csv"
+    assert verdicts(path) == ""
+    path.write_text(
+        "claim,reading,pressure_MPa,verdict\nC1,campaign,all,holds\nC1,campaign,5,does not hold\n"
+        "C2,campaign,all,holds in part\nC3,campaign,all,holds\nC1,other,all,does not hold\n"
+    )
+    assert verdicts(path) == "holds: 2 of 3; holds in part: 1 of 3"

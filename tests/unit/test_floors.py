@@ -14,13 +14,14 @@ import rubfric
 PACKAGE = Path(rubfric.__file__).resolve().parent
 WORKFLOW = PACKAGE.parent / "workflow"
 
-# Lowest first. A module may import from the floors below its own; those of figures also one another.
+# Lowest first. A module may import from the floors below its own; those of one sub-package also one another.
 FLOORS = [
     {"errors", "arrays", "measured"},
     {"checks", "atomic"},
-    {"material", "road", "choices", "relaxation", "outcome", "checkpoint"},
+    {"material", "road", "choices", "rigchoice", "relaxation", "outcome", "checkpoint"},
     {"reference", "past"},
     {"scene", "homogeneous"},
+    {"readings", "configfile", "statements"},
     {"folding", "cell", "finitestrain", "procedure", "saturation", "presets", "resolvable"},
     {"block", "branches"},
     {"smallstrain", "finiteblock", "surfacemodes", "resolution", "routes"},
@@ -41,10 +42,16 @@ FLOORS = [
     {"trade"},
     {"pages"},
     {"multiscale", "tablepage"},
-    {"collection"},
+    {"collection", "frictionmap"},
     {"tables"},
+    {"rig", "observation"},
+    {"evidence"},
+    {"judgement"},
+    {"claimspage"},
     {"figures"},
+    {"explorer"},
     {"campaign", "verdict"},
+    {"rigcli"},
     {"trials", "extremes", "sources"},
     {"jobs", "warm", "cli", "trial", "records", "progress", "findings", "configdoc"},
     {"stability", "runlog"},
@@ -97,6 +104,11 @@ def floor(module: str) -> int:
     return next(number for number, names in enumerate(FLOORS) if top in names)
 
 
+def are_neighbours(module: str, other: str) -> bool:
+    """Return whether two modules belong to one sub-package."""
+    return "." in module and module.partition(".")[0] == other.partition(".")[0]
+
+
 def is_figure(module: str) -> bool:
     return module.startswith("figures.")
 
@@ -113,7 +125,7 @@ def test_every_module_has_a_floor_and_every_floor_its_modules() -> None:
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_point_down(module: str) -> None:
     for below in own_imports(module):
-        if is_figure(module) and is_figure(below):
+        if are_neighbours(module, below):
             continue
         assert floor(below) < floor(module), f"{module} imports {below}"
 
@@ -123,8 +135,11 @@ def test_no_figure_is_imported_by_another(module: str) -> None:
     assert not {below for below in own_imports(module) if re.fullmatch(r"figures\.fig\d+", below)}
 
 
-def test_figures_do_not_import_in_circles() -> None:
-    waiting = {module: {below for below in own_imports(module) if is_figure(below)} for module in FIGURES}
+@pytest.mark.parametrize("package", ["figures", "rig", "explorer"])
+def test_sub_packages_do_not_import_in_circles(package: str) -> None:
+    modules = [module for module in MODULES if module.startswith(f"{package}.")]
+    waiting = {module: {below for below in own_imports(module) if are_neighbours(module, below)} for module in modules}
+    assert waiting
     while waiting:
         free = {module for module, below in waiting.items() if not below & waiting.keys()}
         assert free, f"circle among {sorted(waiting)}"
@@ -132,7 +147,7 @@ def test_figures_do_not_import_in_circles() -> None:
 
 
 def test_figures_read_datasets_and_nothing_of_the_mechanics() -> None:
-    allowed = {"errors", "arrays", "atomic", "checks", "multiscale"}
+    allowed = {"errors", "arrays", "atomic", "checks", "multiscale", "frictionmap"}
     for module in FIGURES:
         assert {below for below in own_imports(module) if not is_figure(below)} <= allowed, module
 
@@ -146,6 +161,18 @@ def test_only_figures_import_matplotlib() -> None:
     assert users
     assert {module for module, inside in users if not is_figure(module)} <= {"warm"}
     assert ("warm", False) not in users
+
+
+def test_only_explorer_imports_plotly() -> None:
+    users = {module for module in MODULES for name, _ in outside_imports(module) if name == "plotly"}
+    assert users
+    assert all(module.startswith("explorer.") for module in users)
+
+
+def test_explorer_reads_datasets_and_nothing_of_the_mechanics() -> None:
+    allowed = {"errors", "arrays", "atomic", "checks", "multiscale", "figures.deformation"}
+    for module in (module for module in MODULES if module.startswith("explorer.")):
+        assert {below for below in own_imports(module) if not below.startswith("explorer.")} <= allowed, module
 
 
 def test_only_cell_imports_skfem() -> None:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 
 import pytest
@@ -208,3 +208,14 @@ def test_config_and_code_have_the_same_numerics() -> None:
     config = yaml.safe_load((Path(__file__).parents[2] / "config/config.yaml").read_text(encoding="utf-8"))
     chosen, presets = read_numerics(config["numerics"], config["presets"])
     assert chosen == presets["standard"] == Numerics()
+
+
+def test_parameters_are_the_callers_own(paper_scene: SceneMaker) -> None:
+    scene = paper_scene(1.0, 5.0)
+    parameters, digest = scene.parameters(), scene.digest
+    parameters["material"]["shear_fractions"].append(1.0)
+    parameters["numerics"]["accuracy"] = 1.0
+    assert scene.parameters() != parameters
+    assert scene.digest == digest
+    assert list(parameters) == [field.name for field in fields(Scene)]
+    assert json.loads(json.dumps(asdict(scene))) == scene.parameters()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,8 @@ from pathlib import Path
 import pytest
 
 import rubfric
-from rubfric.sources import sources
+import rubfric.sources
+from rubfric.sources import sources, stamp
 
 PACKAGE = Path(rubfric.__file__).resolve().parent
 MODULES = ["rubfric.simulation", "rubfric.collection", "rubfric.tables", "rubfric.campaign", "rubfric.summary"]
@@ -68,3 +70,60 @@ def test_scenes_do_not_depend_on_what_comes_after_them() -> None:
 def test_unknown_module_is_refused(module: str) -> None:
     with pytest.raises(ModuleNotFoundError, match=f"^{module} is no module of rubfric$"):
         sources(module)
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A package of two modules, the first of which imports the second; both an hour old."""
+    folder = tmp_path / "rubfric"
+    folder.mkdir()
+    for name, text in (("first", "from rubfric.second import this\n"), ("second", "this = 1\n"), ("third", "")):
+        (folder / f"{name}.py").write_text(text)
+        os.utime(folder / f"{name}.py", (1e9, 1e9))
+    monkeypatch.setattr("rubfric.sources._PACKAGE", folder)
+    forget()
+    return folder
+
+
+def forget() -> None:
+    """Let the next call read the files anew, as another run does."""
+    for function in (sources, stamp, rubfric.sources._imported):
+        function.cache_clear()
+
+
+def test_stamp_is_as_old_as_the_youngest_source_and_stays_while_they_do(package: Path, tmp_path: Path) -> None:
+    os.utime(package / "second.py", (1.1e9, 1.1e9))
+    place = Path(stamp(tmp_path / "stamps", "rubfric.first"))
+    assert place == tmp_path / "stamps" / "rubfric.first"
+    assert [line.split()[1] for line in place.read_text().splitlines()] == ["rubfric/first.py", "rubfric/second.py"]
+    assert place.stat().st_mtime == 1.1e9
+    os.utime(package / "second.py")
+    (package / "third.py").write_text("other = 2\n")
+    forget()
+    assert stamp(tmp_path / "stamps", "rubfric.first") == str(place)
+    assert place.stat().st_mtime == 1.1e9
+
+
+@pytest.mark.parametrize("name", ["first", "second"])
+def test_stamp_is_new_where_a_source_has_changed_however_old_it_looks(package: Path, tmp_path: Path, name: str) -> None:
+    place = Path(stamp(tmp_path, "rubfric.first"))
+    before = place.read_text()
+    (package / f"{name}.py").write_text((package / f"{name}.py").read_text() + "# A remark.\n")
+    os.utime(package / f"{name}.py", (1e9, 1e9))
+    forget()
+    stamp(tmp_path, "rubfric.first")
+    changed = [line for line in place.read_text().splitlines() if line not in before.splitlines()]
+    assert [line.split()[1] for line in changed] == [f"rubfric/{name}.py"]
+    assert place.stat().st_mtime > 1.1e9
+
+
+def test_stamp_that_was_lost_or_damaged_is_made_again(package: Path, tmp_path: Path) -> None:
+    place = Path(stamp(tmp_path, "rubfric.first", "rubfric.third"))
+    text = place.read_text()
+    assert len(text.splitlines()) == 3
+    for damage in (lambda: place.write_bytes(b"\xff\xfe"), place.unlink):
+        damage()
+        forget()
+        assert stamp(tmp_path, "rubfric.first", "rubfric.third") == str(place)
+        assert place.read_text() == text
+    assert place.stat().st_mtime == 1e9

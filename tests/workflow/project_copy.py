@@ -157,5 +157,5 @@ class Project:
 
     @property
     def tables(self) -> dict[str, str]:
-        """The texts of all tables, by file name."""
-        return {path.name: path.read_text() for path in sorted((self.results / "tables").glob("*.csv"))}
+        """The texts of the tables of friction, by file name."""
+        return {path.name: path.read_text() for path in sorted((self.results / "tables").glob("friction_*.csv"))}

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import pandas as pd
 from project_copy import Plan, Project
 
 FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7"}
@@ -33,6 +34,17 @@ def test_tables_and_figures_are_there(template: Project) -> None:
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
     assert (template.results / "campaign.nc").is_file()
+    assert 1_000_000 < (template.results / "explorer.html").stat().st_size < 10_000_000
+
+
+def test_claims_are_judged_here_and_in_the_other_reading(template: Project) -> None:
+    claims = pd.read_csv(template.results / "tables" / "claims.csv")
+    whole = claims[claims["pressure_MPa"] == "all"]
+    assert set(whole["reading"]) == {"campaign", "plane_strain"}
+    assert list(whole.loc[whole["reading"] == "campaign", "claim"]) == [f"C{number}" for number in range(1, 9)]
+    assert set(claims["verdict"]) <= {"holds", "holds in part", "does not hold", "not decided"}
+    page = (template.results / "claims.html").read_text()
+    assert page.count('class="verdict') >= len(whole)
 
 
 def test_every_job_has_a_log(template: Project) -> None:
@@ -87,6 +99,9 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "field_figure": 2,
         "march": 1,
         "march_figure": 1,
+        "reading": 8,
+        "claims": 1,
+        "explorer": 1,
     }
     assert plan.scenes == set(empty_project.campaign.scenes())
     assert plan.figures == FIGURES

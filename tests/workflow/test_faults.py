@@ -119,6 +119,8 @@ def workers(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
 def test_kills_at_any_moment_change_no_number(blank: Project, calm: Project) -> None:
     chance = random.Random(2019)
     for victims in ("worker", "everything", "worker"):
+        for made in list(blank.results.rglob("[!.]*.nc"))[:2] if blank.results.is_dir() else ():
+            made.unlink()  # on a fast machine the run before may have left nothing to do
         with running(blank) as process:
             time.sleep(chance.uniform(0.0, 0.8))
             if victims == "everything":

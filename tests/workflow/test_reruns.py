@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import time
 from typing import Any
 
@@ -11,30 +12,34 @@ import pytest
 from project_copy import Project
 
 TABLES = {"scale_table": 4, "total_table": 1}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4}
-MARCHES = {"march": 1, "march_figure": 1}
-EVERYTHING = {"scene": 18, **CAMPAIGN, "field_figure": 2, **MARCHES}
+CLAIMS = {"claims": 1}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **CLAIMS, "explorer": 1}
+FIELDS = {"field_figure": 2, **CLAIMS}
+MARCHES = {"march": 1, "march_figure": 1, **CLAIMS}
+EVERYTHING = {"scene": 18, **CAMPAIGN, **FIELDS, **MARCHES, "reading": 8}
 CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6", "fig7"}
 FIELD_FIGURES = {"fig2", "fig4"}
 DEFAULT = "config/config.yaml"
 
 
 @pytest.mark.parametrize(
-    ("at", "values", "count"),
+    ("at", "values", "count", "readings"),
     [
-        ("grid.velocities", [1, 10, 100], 9),
-        ("grid.pressures", [0.5, 2, 5], 8),
-        ("aspect_study.aspects", [0.5, 0.75, 1.5], 2),
+        ("grid.velocities", [1, 10, 100], 9, 4),
+        ("grid.pressures", [0.5, 2, 5], 8, 8),
+        ("aspect_study.aspects", [0.5, 0.75, 1.5], 2, 2),
     ],
 )
-def test_another_value_runs_its_own_scenes_only(project: Project, at: str, values: list[float], count: int) -> None:
+def test_another_value_runs_its_own_scenes_only(
+    project: Project, at: str, values: list[float], count: int, readings: int
+) -> None:
     before = set(project.campaign.scenes())
     project.configure(at, values)
     added = set(project.campaign.scenes()) - before
     plan = project.plan()
     assert len(added) == count
     assert plan.scenes == added
-    assert plan.jobs == {"scene": count, **CAMPAIGN}
+    assert plan.jobs == {"scene": count, **CAMPAIGN, "reading": readings}
     assert plan.figures == CAMPAIGN_FIGURES
 
 
@@ -43,20 +48,20 @@ def test_value_taken_away_runs_no_scene(project: Project) -> None:
     project.configure("grid.velocities", [100])
     project.configure("figures.fields.velocities", [100])
     plan = project.plan()
-    assert plan.jobs == {**CAMPAIGN, "field_figure": 2}
+    assert plan.jobs == {**CAMPAIGN, **FIELDS, "reading": 1}  # a batch of the other reading is of fewer scenes
 
 
 def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
     project.configure("figures.fields.pressures", [5])
     plan = project.plan()
-    assert plan.jobs == {"field_figure": 2}
+    assert plan.jobs == FIELDS
     assert plan.figures == FIELD_FIGURES
 
 
 def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> None:
     project.configure("figures.total_pressure", 0.5)
     plan = project.plan()
-    assert plan.jobs == {"campaign_figure": 1}
+    assert plan.jobs == {"campaign_figure": 1, **CLAIMS}
     assert plan.figures == {"fig7"}
 
 
@@ -123,8 +128,14 @@ def test_edited_tables_are_written_again_alone(project: Project) -> None:
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/multiscale.py")
     plan = project.plan()
-    assert plan.jobs == {**TABLES, "campaign_figure": 1}
+    assert plan.jobs == {**TABLES, "campaign_figure": 1, **CLAIMS, "explorer": 1}
     assert plan.figures == {"fig7"}
+
+
+@pytest.mark.parametrize("name", ["page.py", "explorer.js"])
+def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
+    project.comment(f"rubfric/explorer/{name}")
+    assert project.plan().jobs == {"explorer": 1}
 
 
 def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
@@ -150,24 +161,40 @@ def test_touch_alone_reruns_nothing(project: Project) -> None:
     assert project.plan().jobs == {}
 
 
+def test_lost_stamps_of_the_sources_rerun_nothing(project: Project) -> None:
+    shutil.rmtree(project.root / ".snakemake" / "sources")
+    assert project.plan().jobs == {}
+
+
 @pytest.mark.parametrize(
     ("at", "value"),
-    [
-        ("rubbers.zhou2019.youngs_modulus", 4.2),
-        ("rubbers.zhou2019.bulk", "proportional"),
-        ("numerics.contact_nodes", 40),
-    ],
+    [("rubbers.zhou2019.youngs_modulus", 4.2), ("rubbers.zhou2019.bulk", "proportional")],
 )
-def test_other_rubber_or_numerics_run_everything(project: Project, at: str, value: Any) -> None:
+def test_other_rubber_runs_everything(project: Project, at: str, value: Any) -> None:
     project.configure(at, value, DEFAULT)
     assert project.plan().jobs == EVERYTHING
+
+
+def test_other_numerics_run_all_but_the_other_reading_which_has_a_preset(project: Project) -> None:
+    project.configure("numerics.contact_nodes", 40, DEFAULT)
+    assert project.plan().jobs == {rule: count for rule, count in EVERYTHING.items() if rule != "reading"}
+
+
+def test_other_preset_of_the_readings_runs_them_alone(project: Project) -> None:
+    project.configure("claims.preset", "standard", DEFAULT)
+    assert project.plan().jobs == {"reading": 8, **CLAIMS}
+
+
+def test_other_difference_judges_again_alone(project: Project) -> None:
+    project.configure("claims.difference", 0.1, DEFAULT)
+    assert project.plan().jobs == CLAIMS
 
 
 def test_other_height_of_one_scale_runs_that_scale_only(project: Project) -> None:
     project.configure("roads.zhou2019.2.amplitude", 0.004, DEFAULT)
     plan = project.plan()
     assert plan.scenes == {name for name in project.campaign.scenes() if name.startswith("scale3_")}
-    assert plan.jobs == {"scene": 4, **CAMPAIGN}
+    assert plan.jobs == {"scene": 4, **CAMPAIGN, "reading": 2}
 
 
 def test_spare_rubber_and_road_run_nothing(project: Project) -> None:
@@ -186,7 +213,7 @@ def test_other_plane_runs_scenes_of_other_names(project: Project) -> None:
     project.configure("plane", "strain", DEFAULT)
     plan = project.plan()
     assert plan.scenes == {name.replace("stress", "strain") for name in project.scene_files}
-    assert plan.jobs == EVERYTHING
+    assert plan.jobs == {rule: count for rule, count in EVERYTHING.items() if rule != "reading"}
 
 
 def test_deleted_table_is_written_again_alone(project: Project) -> None:

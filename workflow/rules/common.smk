@@ -10,9 +10,11 @@ from snakemake.settings.enums import Quietness
 import rubfric
 from rubfric import jobs
 from rubfric.campaign import load
-from rubfric.findings import highest
+from rubfric.checks import written
+from rubfric.findings import highest, verdicts
+from rubfric.readings import AS_CONFIGURED
 from rubfric.runlog import RunLog, attach
-from rubfric.sources import sources
+from rubfric.sources import stamp
 from rubfric.trials import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
@@ -35,14 +37,52 @@ wildcard_constraints:
     figure=r"\w+",
 
 
+# On a cluster, tables and figures run where Snakemake does: they take seconds. The scenes of a batch are local to the
+# one Snakemake that runs them on their node: it would start another for each.
+localrules:
+    campaign,
+    scale_table,
+    total_table,
+    campaign_figure,
+    field_figure,
+    march_figure,
+    rig_points,
+    rig_figure,
+    rig_schematic,
+    claims,
+    explorer,
+    accuracy_tables,
+    accuracy_figure,
+    stability_table,
+    stability_figure,
+
+
+if workflow.remote_exec:
+
+    localrules:
+        scene,
+        reading,
+        march,
+        ladder,
+        calibrate,
+        stability_batch,
+
+
 def package_files(*modules):
-    """Return the package's files behind some modules: a job that lists them reruns when their content changes."""
-    return [os.path.relpath(path) for path in sources(*modules)]
+    """Return a file that stands for the package's files behind some modules: a job that lists it reruns when the content
+    of one of them changes.
+    """
+    return stamp(".snakemake/sources", *modules)
 
 
 def scene_file(name):
     """Return where the result of a scene belongs."""
     return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def scene_files(wildcards):
+    """Return the results of all scenes; a function, since only some runs need to know."""
+    return [scene_file(name) for name in SCENES]
 
 
 def march_file(name):
@@ -81,6 +121,38 @@ def fingerprint(words):
     return hashlib.sha256(" ".join(words).encode()).hexdigest()[:16]
 
 
+def reading_file(reading, batch):
+    """Return where observations of a batch of scenes in another reading of the paper belong."""
+    return f"{RESULTS}/readings/{reading}/{RUBBER}/{ROAD}/{batch}.csv"
+
+
+def batches_by_speed(scenes):
+    """Return scenes by name, in batches of one scale and speed."""
+    batches = {}
+    for name, scene in scenes.items():
+        batch = f"scale{scene.scale}_v{written(scene.velocity)}"
+        batches.setdefault(batch, {})[name] = scene
+    return batches
+
+
+def judged_by(campaign):
+    """Return what the verdicts on the paper's claims depend on, besides results."""
+    fields = campaign.figures
+    return {
+        "aspect": campaign.aspect,
+        "studied": list(campaign.aspect_study.pressures),
+        "profiled": {
+            "scale": [fields.scale],
+            "velocity": list(fields.velocities),
+            "pressure": list(fields.pressures),
+            "aspect": [campaign.aspect],
+        },
+        "difference": campaign.claims.difference,
+        "saturation": campaign.transient.saturation,
+        "total_pressure": fields.total_pressure,
+    }
+
+
 def follow(workflow):
     """Return the short log of this run, which follows Snakemake's own."""
     output = workflow.output_settings
@@ -94,7 +166,6 @@ def follow(workflow):
             f"{RESULTS}/{path}"
             for path in (
                 "claims.html",
-                "claims.md",
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",

@@ -19,9 +19,10 @@ FIGURE_WORDS = {
     "fig6": "friction over speed and pressure",
     "fig7": "friction of the whole road",
 }
+RIG_FIGURES = ["fig8", "fig9"]
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
-    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES])
+    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES])
     for kind in ("pdf", "png")
 ]
 
@@ -89,6 +90,6 @@ rule field_figure:
 
 rule figures:
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         FIGURES,

@@ -1,6 +1,5 @@
 # One job per scene. All that a scene depends on stands in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
-SCENE_FILES = [scene_file(name) for name in SCENES]
 DIGESTS = [scene.digest for scene in SCENES.values()]
 
 
@@ -25,7 +24,7 @@ rule campaign:
     input:
         package_files("rubfric.collection"),
         script="workflow/scripts/collect_campaign.py",
-        scenes=SCENE_FILES,
+        scenes=scene_files,
     output:
         report(
             f"{RESULTS}/campaign.nc",
@@ -54,4 +53,4 @@ rule campaign:
 
 rule scenes:
     input:
-        SCENE_FILES,
+        scene_files,

@@ -2,7 +2,7 @@
 from rubfric.extremes import cases
 
 STABILITY = f"{RESULTS}/stability"
-EXTREMES = [case.parameters() for case in cases()]
+EXTREMES = cases()
 CASES_PER_JOB = 32
 BATCHES = [str(number) for number in range(-(-len(EXTREMES) // CASES_PER_JOB))]
 
@@ -18,7 +18,10 @@ rule stability_batch:
     wildcard_constraints:
         batch=r"\d+",
     params:
-        cases=lambda wildcards: EXTREMES[int(wildcards.batch) :: len(BATCHES)],
+        cases=lambda wildcards: [
+            case.parameters()
+            for case in EXTREMES[int(wildcards.batch) :: len(BATCHES)]
+        ],
         version=rubfric.__version__,
     message:
         "Stability, batch {wildcards.batch}"

@@ -84,6 +84,6 @@ rule total_table:
 # Scenes and collection are asked for by name: a file in between that is missing would not be missed.
 rule tables:
     input:
-        SCENE_FILES,
+        scene_files,
         rules.campaign.output,
         TABLES,

@@ -1,0 +1,191 @@
+"use strict";
+// Friction against speed, as a map over speed and pressure, and as bars of the scales.
+
+// Drag to zoom only where a finger does not have to scroll the page.
+const ZOOMS = window.matchMedia("(hover: hover) and (pointer: fine)").matches;
+const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", sans-serif';
+const LOOK = {
+  paper_bgcolor: "rgba(0,0,0,0)",
+  plot_bgcolor: "rgba(0,0,0,0)",
+  font: { family: FONT, size: 12, color: "#1d2129" },
+  hoverlabel: { bgcolor: "#ffffff", bordercolor: "#8b8a86", font: { family: FONT, size: 13, color: "#1d2129" }, align: "left" },
+};
+const CONFIG = { displayModeBar: false, responsive: false, scrollZoom: false, showTips: false, doubleClick: "reset" };
+const AXIS = { zeroline: false, gridcolor: "#eeece7", linecolor: "#b6b4ae", tickcolor: "#b6b4ae", ticks: "outside", ticklen: 4, fixedrange: true };
+const SYMBOLS = ["circle", "square-open", "triangle-up", "diamond-open", "triangle-down", "cross-open", "x", "pentagon-open"];
+const DASHES = ["solid", "8px,3px", "4px,2px", "8px,2px,2px,2px", "2px,2px"];
+
+function titled(text) { return { text, standoff: 8, font: { size: 13 } }; }
+function translucent(colour, opacity) {
+  return `rgba(${[1, 3, 5].map((from) => parseInt(colour.slice(from, from + 2), 16)).join(",")},${opacity})`;
+}
+
+/** What hovering over a point tells. */
+function told(data, place, pressure, speed) {
+  const curve = data.curves[place];
+  const friction = curve.friction[pressure][speed], error = curve.error[pressure][speed];
+  const lines = [`${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[pressure])}`];
+  if (friction === null) return `${lines[0]}<br>not run`;
+  const share = relative(friction, error);
+  lines.push(`<b>μ ${measured(friction, error)}</b>${share ? ` (${share})` : ""}`);
+  if (place === "total") {
+    for (const { number } of data.scales) {
+      const scene = data.scenes[number][pressure][speed];
+      lines.push(`scale ${number}: ${rounded(scene.friction)}, contact ${percent(scene.contact)}`);
+    }
+  } else {
+    const scene = data.scenes[place][pressure][speed];
+    lines.push(`contact ${percent(scene.contact)}`, scene.finite ? "finite strain" : "small strain");
+  }
+  return lines.join("<br>");
+}
+
+/** Stretches of neighbouring speeds of which friction and error are known. */
+function stretches(friction, error) {
+  const found = [];
+  friction.forEach((value, place) => {
+    if (value === null || error[place] === null) return;
+    const last = found[found.length - 1];
+    if (last && last[last.length - 1] === place - 1) last.push(place);
+    else found.push([place]);
+  });
+  return found;
+}
+
+/** Ticks of an axis of speeds: the powers of ten, or the speeds where they span less. */
+function speedAxis(speeds) {
+  const [low, high] = [Math.log10(speeds[0]), Math.log10(speeds[speeds.length - 1])];
+  const room = Math.max(0.03 * (high - low), 0.05);
+  const powers = [];
+  for (let power = Math.ceil(low - 1e-9); power <= Math.floor(high + 1e-9); power += 1) powers.push(10 ** power);
+  const ticks = powers.length > 1 ? powers : speeds;
+  return {
+    ...AXIS, type: "log", range: [low - room, high + room], tickvals: ticks, ticktext: ticks.map(plain), showgrid: false,
+    title: titled("sliding speed (mm/s)"),
+  };
+}
+
+/** Labels of places that stand for speeds; every other one where there is no room for all. */
+function speedLabels(speeds, width) {
+  const step = Math.ceil(38 / Math.max(1, (width - 90) / speeds.length));
+  return speeds.map((speed, place) => (place % step === 0 ? plain(speed) : ""));
+}
+
+/** Curves of friction against speed, one for each pressure, the chosen one on top. */
+function curvesPlot(data, chosen) {
+  const curve = data.curves[chosen.place];
+  const order = data.pressures.map((_, place) => place).filter((place) => place !== chosen.pressure);
+  const bands = [], lines = [], rings = [];
+  for (const pressure of [...order, chosen.pressure]) {
+    const friction = curve.friction[pressure], error = curve.error[pressure], colour = data.colours.pressures[pressure];
+    const strong = pressure === chosen.pressure;
+    for (const run of stretches(friction, error)) {
+      const there = [...run, ...[...run].reverse()];
+      bands.push({
+        x: there.map((place) => data.speeds[place]),
+        y: there.map((place, count) => friction[place] + (count < run.length ? error[place] : -error[place])),
+        mode: "lines", fill: "toself", fillcolor: translucent(colour, 0.28), line: { width: 0 }, hoverinfo: "skip",
+      });
+    }
+    lines.push({
+      x: data.speeds, y: friction, name: pressureOf(data.pressures[pressure]), mode: "lines+markers", connectgaps: false,
+      line: { color: colour, width: strong ? 3.2 : 1.6, dash: DASHES[pressure % DASHES.length] },
+      marker: { symbol: SYMBOLS[pressure % SYMBOLS.length], size: strong ? 10 : 8, color: colour, line: { width: 1.5, color: colour } },
+      error_y: { array: error.map((value) => value ?? 0), color: colour, thickness: 1.2, width: 3 },
+      customdata: data.speeds.map((_, speed) => [pressure, speed]),
+      text: data.speeds.map((_, speed) => told(data, chosen.place, pressure, speed)), hovertemplate: "%{text}<extra></extra>",
+    });
+    const { kind, at } = curve.peaks[pressure];
+    if (kind === "peak") {
+      rings.push({
+        x: [data.speeds[at]], y: [friction[at]], mode: "markers", hoverinfo: "skip",
+        marker: { symbol: "circle-open", size: 19, color: colour, line: { width: 1.6 } },
+      });
+    }
+  }
+  const here = { x: [data.speeds[chosen.speed]], y: [curve.friction[chosen.pressure][chosen.speed]] };
+  const point = {
+    ...here, mode: "markers", hoverinfo: "skip",
+    marker: { size: 12, color: data.colours.pressures[chosen.pressure], line: { width: 2.5, color: "#1d2129" } },
+  };
+  const x = data.speeds[chosen.speed];
+  return {
+    traces: [...bands, ...rings, ...lines, point],
+    layout: {
+      ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", hoverdistance: 30, dragmode: false,
+      xaxis: speedAxis(data.speeds),
+      yaxis: { ...AXIS, rangemode: "tozero", range: [0, 1.07 * highestOf(curve)], title: titled("friction coefficient μ"), tickformat: ".3~g" },
+      shapes: [{ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#8b8a86", width: 1, dash: "dot" }, layer: "below" }],
+    },
+  };
+}
+
+function highestOf(curve) {
+  const tops = curve.friction.flatMap((row, pressure) => row.map((value, speed) => (value ?? 0) + (curve.error[pressure][speed] ?? 0)));
+  return Math.max(...tops, 1e-9);
+}
+
+/** A map of friction: a cell for each scene that was run, with nothing made up between them. */
+function mapPlot(data, chosen, width) {
+  const curve = data.curves[chosen.place];
+  const speeds = data.speeds.map((_, place) => place), pressures = data.pressures.map((_, place) => place);
+  const roomy = (width - 100) / speeds.length > 40;
+  const rings = { x: [], y: [] };
+  curve.peaks.forEach(({ kind, at }, pressure) => {
+    if (kind === "peak") { rings.x.push(at + (roomy ? 0.36 : 0)); rings.y.push(pressure + (roomy ? 0.34 : 0)); }
+  });
+  const stops = data.colours.friction;
+  const cells = {
+    type: "heatmap", x: speeds, y: pressures, z: curve.friction, zmin: 0, zmax: highestOf(curve), xgap: 2, ygap: 2, hoverongaps: false,
+    colorscale: stops.map((stop, place) => [place / (stops.length - 1), stop]),
+    customdata: pressures.map((pressure) => speeds.map((speed) => [pressure, speed])),
+    text: pressures.map((pressure) => speeds.map((speed) => told(data, chosen.place, pressure, speed))),
+    hovertemplate: "%{text}<extra></extra>", texttemplate: roomy ? "%{z:.3f}" : "", textfont: { size: roomy ? 12 : 10 },
+    colorbar: { thickness: 10, outlinewidth: 0, title: { text: "μ" }, tickformat: ".3~g", len: 1, x: 1.01, xpad: 6 },
+  };
+  const marks = { ...rings, mode: "markers", hoverinfo: "skip", marker: { symbol: "circle", size: 8, color: "#ffffff", line: { width: 1.8, color: "#1d2129" } } };
+  const [x, y] = [chosen.speed, chosen.pressure];
+  const ticks = (tickvals, ticktext) => ({ tickvals, ticktext, range: [-0.5, tickvals.length - 0.5], showgrid: false, ticks: "", tickangle: 0 });
+  return {
+    traces: [cells, marks],
+    layout: {
+      ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", dragmode: false,
+      xaxis: { ...AXIS, ...ticks(speeds, speedLabels(data.speeds, width - 50)), title: titled("sliding speed (mm/s)") },
+      yaxis: { ...AXIS, ...ticks(pressures, data.pressures.map(plain)), title: titled("nominal pressure (MPa)") },
+      shapes: [{ type: "rect", x0: x - 0.49, x1: x + 0.49, y0: y - 0.49, y1: y + 0.49, line: { color: "#e8601c", width: 3.5 } }],
+    },
+  };
+}
+
+/** What each scale adds to the total, at every speed and the chosen pressure. */
+function barsPlot(data, chosen, width) {
+  const places = data.speeds.map((_, place) => place);
+  const total = data.curves.total;
+  const opacity = places.map((place) => (place === chosen.speed ? 1 : 0.42));
+  const bars = data.scales.map(({ number }, order) => {
+    const scenes = data.scenes[number][chosen.pressure];
+    const whole = places.map((place) => total.friction[chosen.pressure][place] !== null);
+    return {
+      type: "bar", name: `scale ${number}`, x: places, y: scenes.map((scene, place) => (whole[place] ? scene.friction : null)),
+      marker: { color: data.colours.scales[order], opacity, line: { width: 0 } },
+      customdata: places.map((speed) => [chosen.pressure, speed]),
+      text: scenes.map((scene) => (scene ? `scale ${number}: μ ${measured(scene.friction, scene.error)}` : "")),
+      textposition: "none", hovertemplate: "%{text}<extra></extra>",
+    };
+  });
+  const sums = {
+    x: places, y: total.friction[chosen.pressure], mode: "markers", marker: { opacity: 0 }, showlegend: false, name: "total",
+    error_y: { array: total.error[chosen.pressure].map((value) => value ?? 0), color: "#1d2129", thickness: 1.5, width: 5 },
+    customdata: places.map((speed) => [chosen.pressure, speed]),
+    text: places.map((speed) => told(data, "total", chosen.pressure, speed)), hovertemplate: "%{text}<extra></extra>",
+  };
+  return {
+    traces: [...bars, sums],
+    layout: {
+      ...LOOK, barmode: "stack", bargap: 0.28, width, height: 270, margin: { l: 52, r: 8, t: 26, b: 48 }, hovermode: "closest", dragmode: false,
+      legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", traceorder: "normal", font: { size: 12 }, itemclick: false, itemdoubleclick: false },
+      xaxis: { ...AXIS, tickvals: places, ticktext: speedLabels(data.speeds, width), tickangle: 0, ticks: "", range: [-0.6, places.length - 0.4], showgrid: false, title: titled("sliding speed (mm/s)") },
+      yaxis: { ...AXIS, rangemode: "tozero", title: titled("friction coefficient μ"), tickformat: ".3~g" },
+    },
+  };
+}

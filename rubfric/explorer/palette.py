@@ -1,0 +1,34 @@
+"""Colours of the page: those of the figures, as plotly has them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from plotly import colors
+
+# Ordered curves run over the same part of the same map as in the figures: its lightest quarter is too pale on white.
+_ORDERED, _LIGHTEST = "Plasma", 0.76
+# Scales are added up, so that they have to be told apart more than ordered: the kinds of the figures.
+_SCALES = ("#332288", "#cc6677", "#117733", "#ddaa33", "#88ccee", "#882255", "#44aa99", "#999933", "#aa4499")
+
+
+def palette(pressures: int, scales: int) -> dict[str, Any]:
+    """Return the colours of so many pressures and scales, and the stops of the two maps, each even from low to high."""
+    places = np.linspace(0.0, _LIGHTEST, pressures).tolist()
+    ordered = colors.sample_colorscale(_ORDERED, places, colortype="tuple")
+    return {
+        "pressures": [_hexadecimal(colour) for colour in ordered],
+        "scales": [_SCALES[place % len(_SCALES)] for place in range(scales)],
+        "energy": _stops("Viridis"),
+        "friction": _stops("dense"),
+    }
+
+
+def _stops(name: str) -> list[str]:
+    sampled = colors.sample_colorscale(name, np.linspace(0.0, 1.0, 12).tolist(), colortype="tuple")
+    return [_hexadecimal(colour) for colour in sampled]
+
+
+def _hexadecimal(colour: tuple[float, ...]) -> str:
+    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)

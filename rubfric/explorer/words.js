@@ -1,0 +1,107 @@
+"use strict";
+// Numbers as a reader wants them, and elements of the page. Text never becomes markup: names come from the user.
+
+const THIN = "\u202f"; // narrow space that does not break
+
+/** A number as in the figures: 0.1, 10, 1000, 10 000. */
+function plain(value) {
+  const text = String(Number(value.toPrecision(12)));
+  if (text.includes("e") || Math.abs(value) < 10000) return text;
+  const [whole, fraction] = text.split(".");
+  const grouped = whole.replace(/\B(?=(\d{3})+$)/g, THIN);
+  return fraction ? `${grouped}.${fraction}` : grouped;
+}
+
+/** A number with so many digits that count. */
+function rounded(value, digits = 3) {
+  if (value === null) return "unknown";
+  const text = value.toPrecision(digits);
+  return text.includes("e") ? plain(Number(text)) : plain(Math.abs(value) >= 100 ? Math.round(value) : Number(text));
+}
+
+/** A share in per cent, two digits that count. */
+function percent(share) {
+  if (share === null) return "unknown";
+  const value = 100 * share;
+  if (value > 0 && value < 0.001) return `below 0.001${THIN}%`;
+  return `${Math.abs(value) >= 10 ? Math.round(value) : plain(Number(value.toPrecision(2)))}${THIN}%`;
+}
+
+/** An error with two digits that count, rounded up, and the digits after the point that it needs. */
+function roundedUp(error) {
+  const digits = Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(error))));
+  const unit = 10 ** -digits;
+  return { digits, text: (Math.ceil(error / unit - 1e-9) * unit).toFixed(digits) };
+}
+
+/** Friction and its error, with the digits that the error leaves. */
+function measured(friction, error) {
+  if (friction === null) return "not run";
+  if (error === null) return `${rounded(friction)}, error unknown`;
+  if (error <= 0) return `${rounded(friction, 4)} ± 0`;
+  const { digits, text } = roundedUp(error);
+  return `${friction.toFixed(digits)} ± ${text}`;
+}
+
+/** The error as a share of friction, rounded up; nothing where there is none. */
+function relative(friction, error) {
+  if (friction === null || error === null || friction === 0) return "";
+  const share = Math.abs(error / friction) * 100;
+  if (share <= 0) return "";
+  const unit = Math.min(1, 10 ** (Math.floor(Math.log10(share)) - 1));
+  return `${plain(unit * Math.ceil(share / unit - 1e-9))}${THIN}%`;
+}
+
+function speedOf(value) { return `${plain(value)}${THIN}mm/s`; }
+function pressureOf(value) { return `${plain(value)}${THIN}MPa`; }
+
+/** A sentence with its capital and full stop. */
+function sentence(words) {
+  const text = words.trim();
+  return text.charAt(0).toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+}
+
+/** Make an element: its attributes, then children or text. */
+function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+}
+
+function byId(id) { return document.getElementById(id); }
+
+/** What is known of the peak of a curve at one pressure, in words. */
+function peakWords(curve, pressure, pressures, speeds) {
+  const { kind, at, between, missing } = curve.peaks[pressure];
+  const here = `At ${pressureOf(pressures[pressure])}`;
+  if (kind === "none") return `${here} nothing was run.`;
+  const highest = measured(curve.friction[pressure][at], curve.error[pressure][at]);
+  const there = speedOf(speeds[at]);
+  const gaps = missing ? ` ${missing} of ${speeds.length} speeds were not run.` : "";
+  const said = {
+    peak: () => {
+      const [low, high] = between.map((place) => plain(speeds[place]));
+      return `${here} the peak is ${highest} at ${there}, the highest of the speeds run; ` +
+        `if the curve has a single peak, it lies between ${low} and ${high}${THIN}mm/s.`;
+    },
+    rising: () => `${here} there is no peak: friction is still rising at ${there}, the fastest speed run (${highest}).`,
+    falling: () => `${here} there is no peak: friction is highest at ${there}, the slowest speed run (${highest}).`,
+    level: () => `${here} no peak can be named: the highest, ${highest} at ${there}, cannot be told from an end of the curve.`,
+    few: () => `${here} there are too few speeds to name a peak; the highest is ${highest} at ${there}.`,
+  };
+  return said[kind]() + gaps;
+}
+
+/** What the marks of a chart mean, and how large the errors are. */
+function marksWords(curve, view) {
+  const shares = curve.friction.flatMap((row, pressure) => row.map((friction, speed) => {
+    const error = curve.error[pressure][speed];
+    return friction && error !== null ? Math.abs(error / friction) : 0;
+  }));
+  const largest = Math.max(...shares);
+  const rings = curve.peaks.some(({ kind }) => kind === "peak");
+  const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
+  const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
+  return [rings ? mark : "", error].filter(Boolean).join(" ");
+}

@@ -1,0 +1,92 @@
+"""Drag of the sled's bearings, which a sensor in the rope reads along with the rubber's friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.errors import InvalidInput
+from rubfric.rig.estimate import centre
+from rubfric.rig.record import Record
+from rubfric.rig.settings import Bearing, Settings
+from rubfric.rig.speed import cells
+from rubfric.rig.tare import find_zero
+from rubfric.rig.windows import find_windows
+
+# Windows that a dependence on speed is drawn through, at least, and by what factor their speeds must differ.
+_FEWEST, _SPAN = 4, 3.0
+
+
+@dataclass(frozen=True)
+class Drag:
+    """Drag of the bearings: ``force`` + ``damping`` times speed + ``coefficient`` times the normal force.
+
+    Attributes
+    ----------
+    force : float
+        N.
+    damping : float
+        N s/mm.
+    coefficient : float
+        Dimensionless.
+    error : float
+        Standard error of the drag, N.
+    notes : tuple of str
+    """
+
+    force: float
+    damping: float
+    coefficient: float
+    error: float
+    notes: tuple[str, ...] = ()
+
+    def __call__(self, speed: float, normal: float) -> float:
+        """Return the drag (N) at a speed (mm/s, positive) and a normal force (N)."""
+        return self.force + self.damping * speed + self.coefficient * normal
+
+
+def given_drag(bearing: Bearing) -> Drag:
+    """Return the drag that the user gives; his uncertainty counts as two standard errors."""
+    return Drag(bearing.force, 0.0, bearing.coefficient, 0.5 * bearing.uncertainty)
+
+
+def measured_drag(pull: Record, settings: Settings) -> Drag:
+    """Return the drag from an unloaded pull, with the sensor in the rope.
+
+    The rope accelerates the sled, too: its mass times its acceleration is subtracted. Through windows of different
+    speeds a straight line is drawn, through others their mean.
+
+    Raises
+    ------
+    InvalidInput
+        Where the sled does not slide in the record.
+    """
+    zero = find_zero(pull, settings.tare, loading="traction")
+    traction = pull.traction - zero.traction
+    speeds, forces, errors = [], [], []
+    for window in find_windows(pull, cells(pull, settings.windows.least_travel), settings.windows):
+        part = slice(window.start, window.end)
+        if window.end - window.start < settings.windows.least_samples:
+            continue
+        place = centre(pull.time[part], pull.displacement[part], 3)
+        pulled = centre(pull.time[part], traction[part], 2)
+        way = np.sign(place.slope)
+        inertia = 1e-3 * settings.sled_mass * place.curvature * way
+        speeds.append(abs(place.slope))
+        forces.append(abs(pulled.value) - inertia)
+        errors.append(np.hypot(pulled.value_error, 1e-3 * settings.sled_mass * place.curvature_error))
+    if not speeds:
+        raise InvalidInput(f"{pull.name} shows no unloaded sliding from which the drag of the bearings could be taken")
+    weights = 1.0 / np.maximum(errors, 1e-12 * max(1.0, *map(abs, forces)))
+    sloped = len(speeds) >= _FEWEST and max(speeds) >= _SPAN * min(speeds)
+    powers = np.vander(speeds, 2 if sloped else 1, increasing=True)
+    found, *_ = np.linalg.lstsq(powers * weights[:, None], np.array(forces) * weights, rcond=None)
+    spread = np.array(forces) - powers @ found
+    freedom = max(len(speeds) - found.size, 1)
+    doubt = max(
+        float(np.sqrt(spread @ spread / freedom / len(speeds))), float(np.min(errors)), float(zero.traction_error.max())
+    )
+    force, damping = float(found[0]), float(found[1]) if sloped else 0.0
+    told = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * doubt:.2g} N"
+    return Drag(force, damping, settings.bearing.coefficient, doubt, (f"{told}, from {pull.name}",))

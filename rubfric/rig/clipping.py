@@ -1,0 +1,45 @@
+"""Where a force reads no further than its sensor or its logger can: readings that pile up at one value."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rubfric.arrays import Flags, Real
+
+# Fewest readings at one extreme that make a pile, and readings in a row in it.
+_PILE, _ROW = 8, 4
+# A pile holds more readings than so many levels beside it; noise has its rarest readings at its extremes.
+_LEVELS = 3
+
+
+def clipped(readings: Real, limit: float | None = None) -> Flags:
+    """Return which readings of a sensor are clipped.
+
+    Where the limit of the sensor is known, those at it or beyond. Otherwise those at the largest or the smallest
+    reading, where that is far more frequent than the readings next to it: such a sensor has clipped, or is so coarse
+    that its last digit hides the force.
+
+    Parameters
+    ----------
+    readings : numpy.ndarray, shape (samples,)
+        N, with the offset of the sensor.
+    limit : float, optional
+        N, of either sign.
+    """
+    if limit:
+        return np.asarray(np.abs(readings) >= limit * (1.0 - 1e-9))
+    found = np.zeros(readings.size, dtype=bool)
+    levels, counts = np.unique(readings, return_counts=True)
+    for extreme, count, beside in (
+        (levels[0], counts[0], counts[1 : 1 + _LEVELS]),
+        (levels[-1], counts[-1], counts[-1 - _LEVELS : -1]),
+    ):
+        at_it = readings == extreme
+        if count >= _PILE and count > beside.sum() and _longest_row(at_it) >= _ROW:
+            found |= at_it
+    return found
+
+
+def _longest_row(flags: Flags) -> int:
+    steps = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(np.int8)))
+    return int((steps[1::2] - steps[::2]).max(initial=0))

@@ -1,0 +1,181 @@
+"""Friction, pressure and speed of a window, with confidence intervals, or the reason why it has none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.arrays import Flags, Real
+from rubfric.rig.bearing import Drag
+from rubfric.rig.estimate import centre, halfwidth
+from rubfric.rig.record import Record
+from rubfric.rig.settings import Settings, Windows
+from rubfric.rig.tare import Zero
+from rubfric.rig.windows import STEADY, Window
+
+# Independent samples that an interval of confidence needs, and windows below this part of the run's load.
+_FEWEST_EFFECTIVE, _UNLOADED = 10.0, 0.1
+# Order to which the polynomials in a window may be raised.
+_HIGHEST = 5
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A record whose forces are tared.
+
+    Attributes
+    ----------
+    record : Record
+    normal : numpy.ndarray, shape (samples,)
+        N, positive under load.
+    traction : numpy.ndarray, shape (samples,)
+        N; positive where it resists a displacement that grows.
+    clipped : numpy.ndarray of bool, shape (samples,)
+    plateau : float
+        Normal force of the loaded run, N.
+    zero : Zero
+    """
+
+    record: Record
+    normal: Real
+    traction: Real
+    clipped: Flags
+    plateau: float
+    zero: Zero
+
+
+@dataclass(frozen=True)
+class Point:
+    """Friction measured in a window; every ``_ci95`` is half the width of a 95 % confidence interval.
+
+    Times in s, speed in mm/s, pressure in MPa, acceleration in mm/s², travel in mm.
+    """
+
+    kind: str
+    start: float
+    end: float
+    samples: int
+    effective_samples: float
+    travel: float
+    acceleration: float
+    speed: float
+    speed_ci95: float
+    pressure: float
+    pressure_ci95: float
+    friction_coefficient: float
+    friction_coefficient_ci95: float
+
+
+@dataclass(frozen=True)
+class Rejected:
+    """A window without a point, and why; speed (mm/s) and pressure (MPa) where they are known."""
+
+    start: float
+    end: float
+    samples: int
+    speed: float
+    pressure: float
+    reason: str
+
+
+def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> Point | Rejected:
+    """Return the point of a window, or the first reason against it.
+
+    All values are those of local polynomials in the middle of the window, so that neither a slow change of speed nor
+    what friction makes of it shifts them: straight lines in a window of steady speed, parabolas in a piece of a sweep,
+    and one order more for displacement. Friction is the ratio of the forces, and its variance that of
+    traction - mu normal force, so that what both sensors share does not count twice.
+
+    A sensor at the rubber reads the rubber's friction. One in the rope also reads what accelerates the sled and what
+    its bearings take, which is subtracted.
+    """
+    part = slice(window.start, window.end)
+    time, place, pressing = loaded.record.time[part], loaded.record.displacement[part], loaded.normal[part]
+    speed = (place[-1] - place[0]) / (time[-1] - time[0])
+    reason = _unfit(loaded, window, settings.windows)
+    if reason:
+        return _rejected(loaded, window, abs(speed), float(pressing.mean()) / settings.area, reason)
+    order, longer = 1 if window.kind == STEADY else 2, loaded.zero.longer
+    motion, normal = centre(time, place, order + 1, _HIGHEST), centre(time, pressing, order, _HIGHEST, longer)
+    way = float(np.sign(speed))
+    pulling = way * loaded.traction[part]
+    traction = centre(time, pulling, order, _HIGHEST, longer)
+    friction, besides, errors = traction.value, 0.0, []
+    if settings.traction == "rope":
+        friction -= 1e-3 * settings.sled_mass * way * motion.curvature + drag(abs(motion.slope), normal.value)
+        errors = [1e-3 * settings.sled_mass * motion.curvature_error, drag.error]
+        besides = drag.coefficient
+    ratio = friction / normal.value
+    rest = centre(time, pulling - (ratio + besides) * pressing, order, _HIGHEST, longer)
+    tared, pulled = (float(part_of[part].mean()) for part_of in (loaded.zero.normal_error, loaded.zero.traction_error))
+    errors += [rest.value_error, pulled, (ratio + besides) * tared]
+    gains = [settings.calibration.get(name, 0.0) for name in ("normal", "traction")]
+    pressed = halfwidth(float(np.hypot(normal.value_error, tared)), normal.freedom)
+    resisted = halfwidth(float(np.linalg.norm(errors)), rest.freedom)
+    point = Point(
+        kind=window.kind,
+        start=float(time[0]),
+        end=float(time[-1]),
+        samples=time.size,
+        effective_samples=rest.effective,
+        travel=float(abs(place[-1] - place[0])),
+        acceleration=way * motion.curvature,
+        speed=abs(motion.slope),
+        speed_ci95=halfwidth(motion.slope_error, motion.freedom),
+        pressure=normal.value / settings.area,
+        pressure_ci95=float(np.hypot(pressed, gains[0] * normal.value)) / settings.area,
+        friction_coefficient=ratio,
+        friction_coefficient_ci95=float(np.hypot(resisted / normal.value, ratio * float(np.linalg.norm(gains)))),
+    )
+    length = time[-1] - time[0]
+    changes = (abs(normal.slope) * length / normal.value, abs(rest.slope) * length / max(abs(friction), 1e-30))
+    clear = abs(rest.slope) > 3.0 * rest.slope_error
+    reason = _doubt(point, changes, clear, settings.windows)
+    return _rejected(loaded, window, point.speed, point.pressure, reason) if reason else point
+
+
+def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
+    """Return why a window cannot be evaluated, or nothing."""
+    part = slice(window.start, window.end)
+    samples = window.end - window.start
+    travel = float(np.ptp(loaded.record.displacement[part]))
+    reading = int(np.count_nonzero(loaded.clipped[part]))
+    pressing = float(loaded.normal[part].mean())
+    if reading:
+        return f"a force is clipped in {reading} of {samples} samples"
+    if pressing < _UNLOADED * loaded.plateau:
+        return f"not loaded: {pressing:.3g} N, less than {100 * _UNLOADED:g} % of the {loaded.plateau:.4g} N of the run"
+    if travel < limits.least_travel:
+        why = "" if window.kind == STEADY else f" while its speed changed by {100 * limits.sweep_range:g} %"
+        return f"slid only {travel:.3g} mm{why}, less than {limits.least_travel:g} mm"
+    if samples < limits.least_samples:
+        why = "" if window.kind == STEADY else f" while the speed changes by {100 * limits.sweep_range:g} %"
+        return f"only {samples} samples{why}, fewer than {limits.least_samples}"
+    return ""
+
+
+def _doubt(point: Point, changes: tuple[float, float], clear: bool, limits: Windows) -> str:
+    """Return why what was found in a window is not trusted, or nothing."""
+    friction, doubt = point.friction_coefficient, point.friction_coefficient_ci95
+    if point.effective_samples < _FEWEST_EFFECTIVE:
+        return (
+            f"its {point.samples} samples are so correlated that they count for {point.effective_samples:.1f} "
+            f"independent ones, fewer than {_FEWEST_EFFECTIVE:g}"
+        )
+    if changes[0] > limits.load_range:
+        return f"the normal force changes by {100 * changes[0]:.2g} %, more than {100 * limits.load_range:g} %"
+    if friction + doubt <= 0.0:
+        return f"friction would be {friction:.3g}: traction points along the motion, or its zero is wrong"
+    if doubt > limits.largest_uncertainty * friction:
+        return f"friction is not resolved: {friction:.2g} +- {doubt:.2g}"
+    if point.kind == STEADY and clear and changes[1] > limits.drift:
+        return f"friction changes by {100 * changes[1]:.2g} % at a steady speed, more than {100 * limits.drift:g} %"
+    return ""
+
+
+def _rejected(loaded: Loaded, window: Window, speed: float, pressure: float, reason: str) -> Rejected:
+    time = loaded.record.time
+    return Rejected(
+        float(time[window.start]), float(time[window.end - 1]), window.end - window.start, speed, pressure, reason
+    )

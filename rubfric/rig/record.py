@@ -1,0 +1,193 @@
+"""The record of one run: time, forces and displacement, put in order, with notes on what had to be done."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+from rubfric.arrays import Flags, Real
+from rubfric.errors import InvalidInput
+from rubfric.rig.headings import recognise
+from rubfric.rig.settings import Settings
+from rubfric.rig.textfile import read_text
+from rubfric.rig.units import QUANTITIES
+
+MEASURED, SIMULATED = "measured", "simulated"
+# What the virtual rig writes above the headings of its files.
+SIMULATED_MARK = "virtual rig (simulated)"
+FEWEST_SAMPLES = 50
+# Share of samples that may lack a value, and that may be spikes.
+_MOST_MISSING, _MOST_SPIKES = 0.2, 0.02
+# Stretches of rising time, in samples, that may be runs of their own.
+_LONG_STRETCH = 10
+# By turns such stretches may follow one another in time so often, for each.
+_CHANGES = 4
+# A pause of so many usual intervals is a gap.
+_GAP = 8.0
+# Half the width of the running median, samples, and how many robust standard deviations from it are a spike.
+_HALF, _SPIKE = 3, 12.0
+
+
+@dataclass(frozen=True)
+class Record:
+    """One run.
+
+    Attributes
+    ----------
+    name : str
+        The file, or what stands for it.
+    source : {"measured", "simulated"}
+    time, normal, traction, displacement : numpy.ndarray, shape (samples,)
+        s, N, N, mm; time rises.
+    overloaded : numpy.ndarray of bool, shape (samples,)
+        Where the logger wrote an overload instead of a force.
+    notes : tuple of str
+        What was done to bring the record in order.
+    """
+
+    name: str
+    source: str
+    time: Real
+    normal: Real
+    traction: Real
+    displacement: Real
+    overloaded: Flags
+    notes: tuple[str, ...] = ()
+
+    def noted(self, *notes: str) -> Record:
+        """Return the record with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
+    def stretches(self) -> list[slice]:
+        """Return the stretches without gaps in time."""
+        steps = np.diff(self.time)
+        ends = np.flatnonzero(steps > _GAP * np.median(steps)) + 1
+        return [slice(int(a), int(b)) for a, b in zip([0, *ends], [*ends, self.time.size], strict=True)]
+
+
+def read_record(path: str, settings: Settings) -> Record:
+    """Read and order the file of one run.
+
+    Raises
+    ------
+    InvalidInput
+        Where the file cannot be read without guessing.
+    FileNotFoundError
+        For a missing file.
+    """
+    table = read_text(path, settings.separator, settings.decimal)
+    columns = recognise(path, table.headings, table.units, settings.columns, settings.units)
+    values = np.stack([table.values[:, columns[name].place] * columns[name].factor for name in QUANTITIES])
+    source = SIMULATED if any(SIMULATED_MARK in line for line in table.preamble) else MEASURED
+    return ordered(path, source, values, table.notes)
+
+
+def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -> Record:
+    """Return a record in the order of time, without samples that lack a value and without spikes.
+
+    Parameters
+    ----------
+    name, source : str
+    values : numpy.ndarray, shape (4, samples)
+        Time, normal force, traction and displacement (s, N, N, mm), as they were recorded; NaN is a gap, infinity an
+        overload.
+    notes : tuple of str
+
+    Raises
+    ------
+    InvalidInput
+        Where too little is left, or the clock began again.
+    """
+    told = list(notes)
+    whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
+    lost = int(np.count_nonzero(~whole))
+    if lost > _MOST_MISSING * whole.size:
+        raise InvalidInput(
+            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %"
+        )
+    if lost:
+        told.append(f"{lost} rows that lack a value left out")
+    values = _in_order(name, values[:, whole], told)
+    _check_length(name, values)
+    overloaded = np.asarray(~np.isfinite(values[1:3]).all(axis=0))
+    values = np.where(np.isfinite(values), values, 0.0)
+    spiky = _spikes(values, overloaded)
+    if np.count_nonzero(spiky) > _MOST_SPIKES * spiky.size:
+        raise InvalidInput(f"{name} has spikes in {np.count_nonzero(spiky)} of its {spiky.size} rows: mend the sensor")
+    if spiky.any():
+        told.append(f"{np.count_nonzero(spiky)} rows with spikes left out")
+        values, overloaded = values[:, ~spiky], overloaded[~spiky]
+    time, normal, traction, place = values
+    record = Record(name, source, time, normal, traction, place, overloaded)
+    gaps = len(record.stretches()) - 1
+    if gaps:
+        told.append(f"{gaps} gaps in time, which no window spans")
+    return record.noted(*told)
+
+
+def _check_length(name: str, values: Real) -> None:
+    if values.shape[1] < FEWEST_SAMPLES:
+        raise InvalidInput(f"{name} has {values.shape[1]} usable rows, but must have at least {FEWEST_SAMPLES}")
+
+
+def _in_order(name: str, values: Real, told: list[str]) -> Real:
+    """Return samples by time, rows that stand twice once, and the mean of samples of one time."""
+    if np.unique(values[0]).size < values.shape[1]:
+        _, first = np.unique(values, axis=1, return_index=True)
+        if first.size < values.shape[1]:
+            told.append(f"{values.shape[1] - first.size} rows that stand twice left out")
+            values = values[:, np.sort(first)]
+    time = values[0]
+    if np.any(np.diff(time) < 0.0):
+        _check_clock(name, time)
+        told.append("rows put in the order of time")
+        values = values[:, np.argsort(time, kind="stable")]
+    stamps, place, count = np.unique(values[0], return_inverse=True, return_counts=True)
+    if stamps.size < values.shape[1]:
+        told.append(f"{values.shape[1] - stamps.size} time stamps stand more than once: means taken")
+        finite = np.isfinite(values)
+        sums = np.stack(
+            [np.bincount(place, np.where(known, row, 0.0)) for row, known in zip(values, finite, strict=True)]
+        )
+        lost = np.stack([np.bincount(place, ~known) for known in finite])
+        values = np.where(lost > 0.0, np.inf, sums / count)
+        values[0] = stamps
+    return values
+
+
+def _check_clock(name: str, time: Real) -> None:
+    """Raise InvalidInput where the clock began again: to sort by time would mix two runs.
+
+    Late packets fill the holes that they left. Runs of one clock lie between one another's samples instead.
+    """
+    falls = np.flatnonzero(np.diff(time) < 0.0) + 1
+    stretches = [part for part in np.split(time, falls) if part.size >= _LONG_STRETCH]
+    labels = np.repeat(np.arange(len(stretches)), [part.size for part in stretches])
+    order = np.argsort(np.concatenate(stretches), kind="stable") if stretches else labels
+    changes = int(np.count_nonzero(np.diff(labels[order])))
+    if changes > _CHANGES * len(stretches):
+        fall = int(falls[0])
+        raise InvalidInput(
+            f"{name} has a clock that begins again, at {time[fall]:g} s after {time[fall - 1]:g} s: "
+            "keep one run in a file"
+        )
+
+
+def _spikes(values: Real, overloaded: Flags) -> Flags:
+    """Return which samples lie far from the running median: single readings that no sled and no force can make.
+
+    The running median follows ramps and steps, so that only what comes and goes within three samples is a spike
+    (Hampel's rule).
+    """
+    found = np.zeros(values.shape[1], dtype=bool)
+    for channel in values[1:]:
+        distance = np.abs(channel - median_filter(channel, 2 * _HALF + 1, mode="nearest"))
+        usual = 1.4826 * np.median(distance)
+        changes = np.abs(np.diff(channel))
+        moving = changes[changes > 0.0]
+        # The least that a reading can change by, for channels that stand still most of the time.
+        least = float(np.percentile(moving, 75.0)) if moving.size else 0.0
+        found |= distance > _SPIKE * max(usual, least)
+    return found & ~overloaded

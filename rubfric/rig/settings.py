@@ -1,0 +1,225 @@
+"""What the user says of a rig and its files: columns, units, area, zeros, bearings and windows, in a YAML file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rubfric import checks
+from rubfric.errors import InvalidInput
+from rubfric.rig.textfile import DECIMALS, SEPARATORS
+from rubfric.rig.units import QUANTITIES, check_factor
+from rubfric.rigchoice import TRACTIONS
+
+_FORCES = ("normal", "traction")
+
+
+@dataclass(frozen=True)
+class Tare:
+    """Readings of the unloaded sensors: found in the record (auto), at given times (s), given (N), or none."""
+
+    how: str = "auto"
+    start: float = 0.0
+    end: float = 0.0
+    normal: float = 0.0
+    traction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """Drag of the sled's bearings: ``force`` (N) plus ``coefficient`` times the normal force, +- ``uncertainty`` (N).
+
+    Where ``file`` names the record of an unloaded pull, the force, as it depends on speed, comes from there.
+    """
+
+    force: float = 0.0
+    coefficient: float = 0.0
+    uncertainty: float = 0.0
+    file: str = ""
+
+
+@dataclass(frozen=True)
+class Windows:
+    """What a window of a record must be like.
+
+    Attributes
+    ----------
+    least_travel : float
+        mm.
+    least_samples : int
+    steady_range, sweep_range : float
+        Largest change of speed, over the speed, within a window of steady speed and within one of a sweep.
+    load_range : float
+        Largest change of the normal force, over the force, within a window.
+    drift : float
+        Largest change of friction, over the friction, within a window of steady speed.
+    largest_uncertainty : float
+        Largest half-width of the confidence interval of friction, over the friction.
+    """
+
+    least_travel: float = 1.0
+    least_samples: int = 30
+    steady_range: float = 0.03
+    sweep_range: float = 0.15
+    load_range: float = 0.05
+    drift: float = 0.1
+    largest_uncertainty: float = 0.25
+
+
+@dataclass(frozen=True)
+class Settings:
+    """All that the user may say.
+
+    Attributes
+    ----------
+    columns, units : mapping
+        Quantity (time, normal, traction, displacement) to heading and to unit, where they are not recognised.
+    area : float
+        Nominal area of the rubber, mm²; 0 where it is not given.
+    traction : {"rubber", "rope"}
+        Where the sensor of traction sits: at the rubber, or in the rope.
+    sled_mass : float
+        Of all that slides and is pulled by the rope's sensor, kg; for a sensor in the rope.
+    tare : Tare
+    bearing : Bearing
+    range : mapping
+        Force (normal, traction) to the reading, N, at which its sensor clips.
+    calibration : mapping
+        Force to the uncertainty of its calibration, relative, 95 %.
+    windows : Windows
+    separator, decimal : str, optional
+        As in ``rubfric.rig.textfile.read_text``.
+    """
+
+    columns: Mapping[str, str] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    area: float = 0.0
+    traction: str = "rubber"
+    sled_mass: float = 0.0
+    tare: Tare = Tare()
+    bearing: Bearing = Bearing()
+    range: Mapping[str, float] = field(default_factory=dict)
+    calibration: Mapping[str, float] = field(default_factory=dict)
+    windows: Windows = Windows()
+    separator: str | None = None
+    decimal: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.traction == "rope" and self.sled_mass <= 0.0:
+            raise InvalidInput(
+                "traction is rope, so sled_mass must be given (kg): the rope also accelerates the sled with the road"
+            )
+
+
+def read_settings(path: str | None, **above: Any) -> Settings:
+    """Read the YAML file of ``--columns``, and lay over it what else was given.
+
+    Parameters
+    ----------
+    path : str or None
+        None for no file.
+    **above
+        Entries to replace, as they would stand in the file; None is passed over.
+
+    Raises
+    ------
+    InvalidInput
+        One sentence for whatever is wrong.
+    FileNotFoundError
+        For a missing file.
+    """
+    entry: Any = {}
+    if path is not None:
+        try:
+            entry = yaml.safe_load(Path(path).read_text(encoding="utf-8-sig")) or {}
+        except (yaml.YAMLError, ValueError, IsADirectoryError) as error:
+            raise InvalidInput(f"{path} is not valid YAML: {' '.join(str(error).split())}") from error
+    names = [one.name for one in fields(Settings)]
+    where = path or "the settings of the rig"
+    checks.known_keys(where, entry, names)
+    given = dict(entry) | {name: value for name, value in above.items() if value is not None}
+    settings = Settings(**{name: _READERS[name](name, value) for name, value in given.items()})
+    if settings.bearing.file and path is not None:
+        found = Path(path).parent / settings.bearing.file
+        settings = replace(settings, bearing=replace(settings.bearing, file=str(found)))
+    return settings
+
+
+def _headings(key: str, value: Any) -> dict[str, str]:
+    checks.known_keys(key, value, QUANTITIES)
+    for name, heading in value.items():
+        if not isinstance(heading, str) or not heading.strip():
+            raise InvalidInput(f"{key}.{name} is {checks.shown(heading)}, but must be the heading of a column")
+    return dict(value)
+
+
+def _units(key: str, value: Any) -> dict[str, str]:
+    checks.known_keys(key, value, QUANTITIES)
+    for name, unit in value.items():
+        check_factor(f"{key}.{name}", name, unit)
+    return dict(value)
+
+
+def _tare(key: str, value: Any) -> Tare:
+    if isinstance(value, str):
+        return Tare(checks.one_of(key, value, ("auto", "none")))
+    checks.known_keys(key, value, ("from", "to", *_FORCES))
+    if set(value) == {"from", "to"}:
+        start, end = (checks.number(f"{key}.{name}", value[name]) for name in ("from", "to"))
+        if end <= start:
+            raise InvalidInput(f"{key}.to is {end:g} s, but must be later than {key}.from, {start:g} s")
+        return Tare("times", start=start, end=end)
+    if set(value) == set(_FORCES):
+        normal, traction = (checks.number(f"{key}.{name}", value[name]) for name in _FORCES)
+        return Tare("given", normal=normal, traction=traction)
+    raise InvalidInput(f"{key} is {checks.shown(value)}, but must hold from and to (s), or normal and traction (N)")
+
+
+def _bearing(key: str, value: Any) -> Bearing:
+    checks.known_keys(key, value, [one.name for one in fields(Bearing)])
+    numbers = {name: checks.at_least(f"{key}.{name}", entry, 0.0) for name, entry in value.items() if name != "file"}
+    file = value.get("file", "")
+    if not isinstance(file, str):
+        raise InvalidInput(f"{key}.file is {checks.shown(file)}, but must be the path of an unloaded pull")
+    if file and "force" in value:
+        raise InvalidInput(f"{key} has both a force and a file, but the force comes from the file: keep one of them")
+    return Bearing(file=file, **numbers)
+
+
+def _forces(key: str, value: Any) -> dict[str, float]:
+    checks.known_keys(key, value, _FORCES)
+    return {name: checks.at_least(f"{key}.{name}", number, 0.0) for name, number in value.items()}
+
+
+def _windows(key: str, value: Any) -> Windows:
+    checks.known_keys(key, value, [one.name for one in fields(Windows)])
+    read: dict[str, Any] = {}
+    for name, number in value.items():
+        at = f"{key}.{name}"
+        if name == "least_samples":
+            read[name] = checks.whole(at, number, 20)
+        elif name == "least_travel":
+            read[name] = checks.positive(at, number, "mm")
+        else:
+            read[name] = checks.between(at, number, 0.0, 1.0)
+    return Windows(**read)
+
+
+_READERS: dict[str, Any] = {
+    "columns": _headings,
+    "units": _units,
+    "area": lambda key, value: checks.positive(key, value, "mm²"),
+    "traction": lambda key, value: checks.one_of(key, value, TRACTIONS),
+    "sled_mass": lambda key, value: checks.positive(key, value, "kg"),
+    "tare": _tare,
+    "bearing": _bearing,
+    "range": _forces,
+    "calibration": _forces,
+    "windows": _windows,
+    "separator": lambda key, value: checks.one_of(key, value, SEPARATORS),
+    "decimal": lambda key, value: checks.one_of(key, value, DECIMALS),
+}

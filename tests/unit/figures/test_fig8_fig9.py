@@ -1,0 +1,109 @@
+"""The rig's scheme, and friction simulated and measured: what is drawn, and what is said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from matplotlib.container import ErrorbarContainer
+from matplotlib.text import Text
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import fig8, fig9, style
+from rubfric.figures.bands import bands
+from rubfric.frictionmap import FrictionMap
+
+Maker = Callable[..., xr.Dataset]
+PRESSURES, SPEEDS = [0.5, 5.0], [10.0, 1000.0]
+
+
+def points(source: str = "measured", count: int = 3) -> pd.DataFrame:
+    rows = {
+        "run": ["run.csv"] * 4,
+        "speed_mm_per_s": [1.0, 10.2, 700.0, 50.0],
+        "speed_ci95_mm_per_s": [0.01, 0.1, 5.0, 0.2],
+        "pressure_MPa": [0.51, 4.9, 5.1, 2.0],
+        "pressure_ci95_MPa": [0.01, 0.05, 0.05, 0.02],
+        "friction_coefficient": [0.5, 0.9, 0.7, 0.8],
+        "friction_coefficient_ci95": [0.02, 0.03, 0.02, 0.01],
+        "source": [source] * 4,
+    }
+    return pd.DataFrame(rows).iloc[:count]
+
+
+def drawn(panel: object) -> np.ndarray:
+    """Return the points of a panel, sorted."""
+    found = [bar.lines[0].get_xydata() for bar in panel.containers if isinstance(bar, ErrorbarContainer)]  # type: ignore[attr-defined]
+    return np.array(sorted(map(tuple, np.concatenate(found)))) if found else np.empty((0, 2))
+
+
+def test_points_stand_where_they_were_measured(make_campaign: Maker) -> None:
+    over_speed, over_pressure = fig9.draw(make_campaign(), points(), 0.75, PRESSURES, SPEEDS).axes
+    np.testing.assert_allclose(drawn(over_speed), [(1.0, 0.5), (10.2, 0.9), (700.0, 0.7)])
+    np.testing.assert_allclose(drawn(over_pressure), [(4.9, 0.9)])
+
+
+def test_lines_are_the_simulated_friction_with_its_band(make_campaign: Maker) -> None:
+    campaign = make_campaign()
+    over_speed, over_pressure = fig9.draw(campaign, points(), 0.75, PRESSURES, SPEEDS).axes
+    friction = FrictionMap.from_campaign(campaign, 0.75)
+    lines = [line for line in over_speed.get_lines() if line.get_xdata().size > 100]
+    for line, pressure in zip(lines, PRESSURES, strict=True):
+        np.testing.assert_allclose(line.get_ydata(), friction.at(pressure)(line.get_xdata()))
+    assert len(bands(over_speed)) == len(PRESSURES)
+    assert len(bands(over_pressure)) == len(SPEEDS)
+
+
+@pytest.mark.parametrize(("source", "words"), [("measured", "measured,"), ("simulated", "virtual rig (simulated),")])
+def test_legend_says_where_points_come_from(source: str, words: str, make_campaign: Maker) -> None:
+    figure = fig9.draw(make_campaign(), points(source), 0.75, PRESSURES, SPEEDS)
+    (legend,) = figure.legends
+    told = [text.get_text() for text in legend.get_texts()]
+    assert any(text.startswith(words) for text in told)
+    assert len(told) == 2
+
+
+def test_note_counts_what_is_not_drawn(make_campaign: Maker) -> None:
+    figure = fig9.draw(make_campaign(), points(count=4), 0.75, PRESSURES, SPEEDS)
+    assert figure.get_supxlabel().endswith("; 1 of 4 lie at others and are not drawn.")
+    figure = fig9.draw(make_campaign(), points(), 0.75, PRESSURES, SPEEDS)
+    assert figure.get_supxlabel() == "Points within 10 % of the pressure, or speed, of a line."
+
+
+def test_no_point_and_no_line_are_drawn_too(make_campaign: Maker, tmp_path: Path) -> None:
+    figure = fig9.draw(make_campaign(), points(count=0), 0.75, [50.0], [1e6])
+    assert figure.get_supxlabel() == "No point could be measured."
+    assert not bands(figure.axes[0])
+    style.save(figure, tmp_path / "fig9.png")
+
+
+def test_table_without_its_columns_is_refused(make_campaign: Maker) -> None:
+    with pytest.raises(InvalidInput, match="the table of the rig lacks the column pressure_ci95_MPa"):
+        fig9.draw(make_campaign(), points().drop(columns="pressure_ci95_MPa"), 0.75, PRESSURES, SPEEDS)
+
+
+def test_scheme_names_every_part_and_symbol(tmp_path: Path) -> None:
+    figure = fig8.draw()
+    (axes,) = figure.axes
+    told = " ".join(text.get_text() for text in axes.texts)
+    for part in ("hand wheel", "flange sensor", "rubber", "road", "ball bearings", "rope", "sheave", "weight", "rail"):
+        assert part in told
+    for symbol in ("$F_N$", "$F_T$", "$F_b$", "$x$", "$v$", "$A$", "$m$"):
+        assert symbol in told
+    style.save(figure, tmp_path / "fig8.pdf")
+    assert (tmp_path / "fig8.pdf").read_bytes().startswith(b"%PDF-")
+
+
+def test_no_words_of_the_scheme_overlap() -> None:
+    figure = fig8.draw()
+    style.lay_out(figure)
+    figure.canvas.draw()
+    boxes = [Text.get_window_extent(text) for text in figure.axes[0].texts]  # without the lines to the parts
+    texts = [text.get_text() for text in figure.axes[0].texts]
+    for place, box in enumerate(boxes):
+        others = [texts[other] for other in range(place) if box.overlaps(boxes[other])]
+        assert not others, (texts[place], others)

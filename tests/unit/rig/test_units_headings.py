@@ -1,0 +1,81 @@
+"""Units and headings as loggers write them."""
+
+from __future__ import annotations
+
+import pytest
+
+from rubfric.errors import InvalidInput
+from rubfric.rig.headings import recognise
+from rubfric.rig.units import check_factor, factor, split_heading
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "expected"),
+    [
+        ("time", "ms", 1e-3),
+        ("time", "S", 1.0),
+        ("time", "µs", 1e-6),
+        ("time", "μs", 1e-6),
+        ("normal", "kN", 1e3),
+        ("normal", "KN", 1e3),
+        ("traction", "mN", 1e-3),
+        ("traction", "MN", None),
+        ("normal", "kg", None),
+        ("displacement", "m", 1e3),
+        ("displacement", " mm ", 1.0),
+        ("displacement", "um", 1e-3),
+        ("displacement", "s", None),
+    ],
+)
+def test_factor_is_that_of_the_unit(quantity: str, unit: str, expected: float | None) -> None:
+    assert factor(quantity, unit) == expected
+
+
+@pytest.mark.parametrize(
+    ("heading", "expected"),
+    [
+        ("Normal force [kN]", ("Normal force", "kN")),
+        ("Normal force (N)", ("Normal force", "N")),
+        ("Force / N", ("Force", "N")),
+        ("Time, s", ("Time", "s")),
+        ("Weg in mm", ("Weg", "mm")),
+        ("x_mm", ("x", "mm")),
+        ("F_N", ("F_N", "")),
+        ("'Time'", ("Time", "")),
+        ("Normal force", ("Normal force", "")),
+        ("Position <µm>", ("Position", "µm")),
+    ],
+)
+def test_heading_is_split_into_name_and_unit(heading: str, expected: tuple[str, str]) -> None:
+    assert split_heading(heading) == expected
+
+
+def test_unknown_unit_is_refused_with_those_that_are_known() -> None:
+    with pytest.raises(InvalidInput, match=r"^units.time is 'fortnight', but must be one of s, sec, "):
+        check_factor("units.time", "time", "fortnight")
+
+
+def columns(*headings: str, named: dict[str, str] | None = None, given: dict[str, str] | None = None) -> dict[str, int]:
+    found = recognise("run.csv", headings, [""] * len(headings), named or {}, given or {})
+    return {quantity: column.place for quantity, column in found.items()}
+
+
+def test_named_columns_come_first() -> None:
+    found = columns("t [s]", "K1 [N]", "K2 [N]", "Weg [mm]", "normal [N]", named={"normal": "K1", "traction": "K2 [N]"})
+    assert found == {"time": 0, "normal": 1, "traction": 2, "displacement": 3}
+
+
+def test_given_units_come_first() -> None:
+    given = {"time": "ms", "normal": "kN", "traction": "N", "displacement": "m"}
+    found = recognise("run.csv", ["t", "Fn", "Ft", "x (mm)"], [""] * 4, {}, given)
+    assert [column.factor for column in found.values()] == [1e-3, 1e3, 1.0, 1e3]
+
+
+def test_one_column_for_two_quantities_is_refused() -> None:
+    with pytest.raises(InvalidInput, match=r"has one column, 'A \(N\)', for normal and another quantity"):
+        columns("t (s)", "A (N)", "x (mm)", "z (mm)", named={"normal": "A", "traction": "A", "displacement": "x"})
+
+
+def test_name_that_no_column_has_is_refused() -> None:
+    with pytest.raises(InvalidInput, match=r"has no column named 'Fz' for normal; its columns are 't \(s\)', "):
+        columns("t (s)", "Fn (N)", "Ft (N)", "x (mm)", named={"normal": "Fz"})

@@ -1,0 +1,87 @@
+# The paper's claims, judged by the campaign; and other readings of what the paper leaves open, in batches of one scale
+# and speed, so that a new speed runs its own scenes only.
+READINGS = {name: CAMPAIGN.reading(name) for name in CAMPAIGN.claims.compare}
+OBSERVED = {
+    name: batches_by_speed(reading.scenes()) for name, reading in READINGS.items()
+}
+CLAIMS = {
+    "claims": f"{RESULTS}/tables/claims.csv",
+    "evidence": f"{RESULTS}/tables/claims_evidence.csv",
+    "page": f"{RESULTS}/claims.html",
+}
+JUDGED = {
+    "campaign": f"{RESULTS}/campaign.nc",
+    "profiles": [scene_file(name) for name in CAMPAIGN.field_scenes()],
+    "marches": MARCH_FILES,
+    "readings": {
+        name: [reading_file(name, batch) for batch in OBSERVED[name]]
+        for name in OBSERVED
+    },
+}
+
+
+rule reading:
+    input:
+        package_files("rubfric.observation"),
+        script="workflow/scripts/observe_scenes.py",
+    output:
+        f"{RESULTS}/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.csv",
+    log:
+        f"{RESULTS}/logs/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.log",
+    wildcard_constraints:
+        reading=r"[A-Za-z0-9_-]+",
+        batch=r"scale\d+_v[0-9.e-]+",
+    params:
+        scenes=lambda wildcards: {
+            name: scene.parameters()
+            for name, scene in OBSERVED[wildcards.reading][wildcards.batch].items()
+        },
+        version=rubfric.__version__,
+    message:
+        "Reading {wildcards.reading}: {wildcards.batch}"
+    run:
+        jobs.run(input.script, log[0], output=output[0], scenes=params.scenes)
+
+
+rule claims:
+    input:
+        package_files("rubfric.claimspage", "rubfric.observation"),
+        script="workflow/scripts/judge_claims.py",
+        results=[
+            *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
+            *(path for paths in JUDGED["readings"].values() for path in paths),
+        ],
+    output:
+        claims=report(
+            CLAIMS["claims"],
+            caption="../report/claims.rst",
+            category=REPORT.answers,
+            labels={
+                "answer": "what of the paper stands",
+                "in short": "",
+                "as": "spreadsheet (CSV)",
+            },
+        ),
+        evidence=CLAIMS["evidence"],
+        page=report(
+            CLAIMS["page"],
+            caption="../report/claims.rst",
+            category=REPORT.answers,
+            labels=lambda wildcards, output: {
+                "answer": "what of the paper stands",
+                "in short": verdicts(output.claims),
+                "as": "page",
+            },
+        ),
+    log:
+        f"{RESULTS}/logs/claims.log",
+    params:
+        choice=judged_by(CAMPAIGN),
+        about={
+            AS_CONFIGURED: CAMPAIGN.words(),
+            **{name: reading.words() for name, reading in READINGS.items()},
+        },
+    message:
+        "Judging the paper's claims: {output.page}"
+    run:
+        jobs.run(input.script, log[0], outputs=CLAIMS, **JUDGED, **dict(params.items()))

@@ -1,0 +1,45 @@
+# One page to explore the campaign in a browser: the grid's scenes, without the other ratios of the study.
+from rubfric.explorer.assets import assets
+
+EXPLORED = {
+    name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
+}
+
+
+rule explorer:
+    input:
+        package_files("rubfric.explorer.data", "rubfric.explorer.page"),
+        [os.path.relpath(path) for path in assets()],
+        script="workflow/scripts/build_explorer.py",
+        campaign=rules.campaign.output[0],
+        scenes=[scene_file(name) for name in EXPLORED],
+    output:
+        report(
+            f"{RESULTS}/explorer.html",
+            caption="../report/explorer.rst",
+            category=REPORT.answers,
+            labels={
+                "answer": "the campaign, to explore",
+                "in short": "friction over speed and pressure, and every block",
+                "as": "page",
+            },
+        ),
+    log:
+        f"{RESULTS}/logs/explorer.log",
+    params:
+        aspect=CAMPAIGN.aspect,
+        road=ROAD,
+        digests=[scene.digest for scene in EXPLORED.values()],
+    message:
+        "The campaign to explore in a browser: {output}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            campaign=input.campaign,
+            scenes=list(input.scenes),
+            digests=params.digests,
+            aspect=params.aspect,
+            road=params.road,
+        )

@@ -1,0 +1,93 @@
+# The test rig: measured runs, or those of a virtual one, as points of friction over speed and pressure; Figs 8 and 9.
+RIG_TABLES = [f"{RESULTS}/tables/{name}.csv" for name in ("rig_points", "rig_rejected")]
+
+
+rule rig_points:
+    input:
+        package_files("rubfric.rig.virtual", "rubfric.rig.summary"),
+        script="workflow/scripts/measure_rig.py",
+        campaign=rules.campaign.output[0],
+        measured=RIG_FILES,
+    output:
+        points=report(
+            RIG_TABLES[0],
+            caption="../report/rig.rst",
+            category=REPORT.tables,
+            labels={"table": "points of the test rig", "as": "spreadsheet (CSV)"},
+        ),
+        rejected=report(
+            RIG_TABLES[1],
+            caption="../report/rig.rst",
+            category=REPORT.tables,
+            labels={
+                "table": "rejected windows of the test rig",
+                "as": "spreadsheet (CSV)",
+            },
+        ),
+    log:
+        f"{RESULTS}/logs/tables/rig_points.log",
+    params:
+        rig=asdict(CAMPAIGN.rig),
+        aspect=CAMPAIGN.aspect,
+    message:
+        "Test rig: {output.points}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            points=output.points,
+            rejected=output.rejected,
+            campaign=input.campaign,
+            aspect=params.aspect,
+            rig=params.rig,
+        )
+
+
+rule rig_figure:
+    input:
+        package_files("rubfric.figures.fig9"),
+        script="workflow/scripts/draw_rig.py",
+        campaign=rules.campaign.output[0],
+        points=rules.rig_points.output.points,
+    output:
+        **pictures("fig9", "../report/fig9.rst", "friction on the test rig"),
+    log:
+        f"{RESULTS}/logs/figures/fig9.log",
+    params:
+        aspect=CAMPAIGN.aspect,
+        pressures=list(CAMPAIGN.rig.pressures),
+        speeds=list(CAMPAIGN.rig.speeds),
+    message:
+        "Drawing fig9"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            campaign=input.campaign,
+            points=input.points,
+            aspect=params.aspect,
+            pressures=params.pressures,
+            speeds=params.speeds,
+            outputs=list(output),
+        )
+
+
+rule rig_schematic:
+    input:
+        package_files("rubfric.figures.fig8"),
+        script="workflow/scripts/draw_schematic.py",
+    output:
+        **pictures("fig8", "../report/fig8.rst", "the test rig"),
+    log:
+        f"{RESULTS}/logs/figures/fig8.log",
+    message:
+        "Drawing fig8"
+    run:
+        jobs.run(input.script, log[0], figure="fig8", outputs=list(output))
+
+
+rule rig:
+    input:
+        rules.rig_points.output,
+        rules.rig_figure.output,
+        rules.rig_schematic.output,

@@ -1,0 +1,14 @@
+"""Build the page on which the campaign is explored in a browser."""
+
+from rubfric import collection, dataset
+from rubfric.explorer.data import payload
+from rubfric.explorer.page import write_page
+
+
+def main(output: str, campaign: str, scenes: list[str], digests: list[str], aspect: float, road: str) -> None:
+    """Write the HTML file ``output`` from the campaign's file and the results of scenes of one ratio, of these digests.
+
+    ``road`` is the name of the road.
+    """
+    results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True))
+    write_page(payload(collection.read(campaign), results, aspect, road), output)

@@ -1,0 +1,66 @@
+"""Judge the paper's claims by a campaign, its marches, other readings and the points of a test rig."""
+
+from typing import Any
+
+import pandas as pd
+
+from rubfric.atomic import whole
+from rubfric.claimspage import claims_page
+from rubfric.collection import read
+from rubfric.dataset import load
+from rubfric.evidence import depth_evidence, gather, march_evidence, march_note
+from rubfric.judgement import EVERY, claims_table, evidence_table
+from rubfric.observation import among, over_axes, profile_row, refusals, table
+from rubfric.readings import AS_CONFIGURED
+from rubfric.statements import CLAIMS
+from rubfric.tables import read_table, write_table
+
+
+def main(
+    outputs: dict[str, str],
+    campaign: str,
+    profiles: list[str],
+    marches: list[str],
+    readings: dict[str, list[str]],
+    choice: dict[str, Any],
+    about: dict[str, str],
+) -> None:
+    """Write the verdicts, the evidence and the page.
+
+    Parameters
+    ----------
+    outputs : dict
+        Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
+    campaign, profiles, marches : str and lists of str
+        The collection of all scenes, results of those whose depth is looked at, and marches.
+    readings : dict of str to list of str
+        Observations of each other reading.
+    choice : dict
+        ``aspect``, ``studied``, ``profiled``, ``difference``, ``saturation``, ``total_pressure``.
+    about : dict of str to str
+        Every reading in words.
+    """
+    difference, profiled = choice["difference"], choice["profiled"]
+    common = {name: choice[name] for name in ("aspect", "studied", "difference")}
+    evidence = {
+        AS_CONFIGURED: [
+            *gather(read(campaign), **common),
+            *depth_evidence(table(profile_row(load(path)) for path in profiles), difference),
+            *(march_evidence(load(path), choice["saturation"]) for path in marches),
+        ]
+    }
+    notes = {AS_CONFIGURED: {"C5": march_note(evidence[AS_CONFIGURED])}}
+    for reading, paths in readings.items():
+        rows = pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
+        evidence[reading] = [
+            *gather(over_axes(rows), **common),
+            *depth_evidence(rows[among(rows, profiled)], difference),
+        ]
+        notes[reading] = dict.fromkeys(CLAIMS, refusals(rows))
+    claims = claims_table(evidence, choice["total_pressure"], notes)
+    numbers = evidence_table(evidence)
+    write_table(numbers, outputs["evidence"])
+    write_table(claims, outputs["claims"])
+    with whole(outputs["page"]) as part:
+        part.write_text(claims_page(claims, numbers, about), encoding="utf-8")
+    print(claims[claims["pressure_MPa"] == EVERY][["claim", "reading", "verdict", "parts"]].to_string(index=False))

@@ -1,0 +1,30 @@
+"""Reduce measured runs of the rig to friction over speed and pressure; without any, those of the virtual rig."""
+
+from rubfric.collection import read
+from rubfric.frictionmap import FrictionMap
+from rubfric.rig.reduction import point_table, reduce_files, rejected_table
+from rubfric.rig.settings import read_settings
+from rubfric.rig.summary import summary
+from rubfric.rig.virtual import measure, parts_of, plan, targets
+from rubfric.rigchoice import RigChoice, read_rig
+from rubfric.tables import write_table
+
+
+def main(points: str, rejected: str, campaign: str, aspect: float, rig: dict[str, object]) -> None:
+    """Write the CSV tables ``points`` and ``rejected``; ``rig`` is that of the config, ``campaign`` its netCDF file."""
+    choice = read_rig(rig)
+    if choice.data:
+        runs = reduce_files(choice.data, read_settings(choice.columns))
+    else:
+        runs = virtual_runs(choice, FrictionMap.from_campaign(read(campaign), aspect))
+    write_table(point_table(runs), points)
+    write_table(rejected_table(runs), rejected)
+    print(summary(runs))
+
+
+def virtual_runs(choice: RigChoice, friction: FrictionMap) -> list:
+    """Return what the virtual rig measures."""
+    sled, sensors = parts_of(choice.virtual)
+    wanted = targets(friction, choice.pressures, choice.speeds)
+    runs, beyond = plan(friction, sled, wanted, choice.virtual.heaviest_weight)
+    return [*measure(runs, friction, sled, sensors, choice.virtual.seed), *beyond]

@@ -1,0 +1,16 @@
+"""Simulate some scenes of another reading of the paper, and keep what claims are judged by."""
+
+from typing import Any
+
+from rubfric.observation import observe, table
+from rubfric.scene import Scene
+from rubfric.tables import write_table
+
+
+def main(output: str, scenes: dict[str, dict[str, Any]]) -> None:
+    """Write one row per scene as a CSV table; a scene that is refused has its reason."""
+    rows = []
+    for name, parameters in scenes.items():
+        rows.append(observe(Scene.from_parameters(parameters)))
+        print(name, rows[-1], flush=True)
+    write_table(table(rows), output)
