@@ -17,11 +17,10 @@ rule explorer:
         report(
             f"{RESULTS}/explorer.html",
             caption="../report/explorer.rst",
-            category=REPORT.answers,
+            category=REPORT.explore,
             labels={
-                "answer": "the campaign, to explore",
-                "in short": "friction over speed and pressure, and every block",
-                "as": "page",
+                "page": "the campaign",
+                "shows": "friction over speed and pressure, and every block",
             },
         ),
     log:
