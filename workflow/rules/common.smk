@@ -23,12 +23,11 @@ ROAD = CAMPAIGN.road_name
 # Where things stand in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
-    explore="2 To explore",
-    figures="3 Figures of the paper",
-    tables="4 Tables",
-    accuracy="5 Accuracy",
-    stability="6 Stability",
-    fields="7 Fields and data",
+    figures="2 Figures of the paper",
+    tables="3 Tables",
+    accuracy="4 Accuracy",
+    stability="5 Stability",
+    fields="6 Fields and data",
 )
 
 
@@ -170,7 +169,6 @@ def follow(workflow):
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
-                "report.html",
             )
         ],
         dry=lambda: workflow.dryrun,
