@@ -25,7 +25,7 @@ figures: $(VENV)/.ready
 
 # Snakemake's report runs nothing: it shows what there is, of accuracy and stability too.
 report: figures
-	snakemake $(if $(CONFIG),--configfile $(CONFIG)) everything --report "$$(python -c \
+	snakemake everything $(if $(CONFIG),--configfile $(CONFIG)) --report "$$(python -c \
 		'import sys; from rubfric.campaign import load; print(load(*sys.argv[1:]).results)' \
 		config/config.yaml $(CONFIG))/report.html"
 

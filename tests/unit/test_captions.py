@@ -84,7 +84,7 @@ def test_every_text_that_the_rules_name_is_there() -> None:
 
 
 def test_front_page_says_what_was_run_and_how_sure_it_is() -> None:
-    files = [SimpleNamespace(target="friction_total.html", labels={"in short": SHORT})]
+    files = [SimpleNamespace(target="friction_total.html", labels={"answer": f"friction of the whole road: {SHORT}"})]
     html = render(ROOT / "workflow" / "report" / "workflow.rst", CONFIGS["odd"], files=files)
     for words in (SHORT, "accuracy of 5.0 %", "0 Maxwell elements; plane stress", "1 sine scale,"):
         assert words in html

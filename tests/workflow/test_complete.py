@@ -61,7 +61,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     assert "  18 of 18 scenes" in "\n".join(lines)
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
     assert lines[end].endswith(": 18 scenes, 1 march, 5 tables, 7 figures, 1 other job")
-    assert lines[end + 1].startswith("  slowest: scale")
+    assert re.match(r"  slowest: (march of )?scale\S+ \S+ s, ", lines[end + 1])
     assert lines[end + 2].startswith("  largest estimated error of friction ")
     assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
     assert lines[end + 4].startswith("  open first: results/minimal/tables/friction_total.csv")

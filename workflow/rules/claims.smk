@@ -58,9 +58,8 @@ rule claims:
             CLAIMS["claims"],
             caption="../report/claims.rst",
             category=REPORT.answers,
-            labels={
-                "answer": "what of the paper stands",
-                "in short": "",
+            labels=lambda wildcards, output: {
+                "answer": f"what of the paper stands: {verdicts(output.claims)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -70,8 +69,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": "what of the paper stands",
-                "in short": verdicts(output.claims),
+                "answer": f"what of the paper stands: {verdicts(output.claims)}",
                 "as": "page",
             },
         ),

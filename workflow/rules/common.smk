@@ -169,7 +169,6 @@ def follow(workflow):
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
-                "report.html",
             )
         ],
         dry=lambda: workflow.dryrun,

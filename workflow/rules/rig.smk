@@ -13,16 +13,15 @@ rule rig_points:
             RIG_TABLES[0],
             caption="../report/rig.rst",
             category=REPORT.tables,
-            labels={"table": "points of the test rig", "as": "spreadsheet (CSV)"},
+            subcategory="test rig",
+            labels={"table": "points"},
         ),
         rejected=report(
             RIG_TABLES[1],
             caption="../report/rig.rst",
             category=REPORT.tables,
-            labels={
-                "table": "rejected windows of the test rig",
-                "as": "spreadsheet (CSV)",
-            },
+            subcategory="test rig",
+            labels={"table": "rejected windows"},
         ),
     log:
         f"{RESULTS}/logs/tables/rig_points.log",

@@ -15,12 +15,14 @@ rule scale_table:
             f"{RESULTS}/tables/friction_scale_{{scale}}.csv",
             caption="../report/scale_table.rst",
             category=REPORT.tables,
+            subcategory="each scale",
             labels={"table": "friction on scale {scale}", "as": "spreadsheet (CSV)"},
         ),
         page=report(
             f"{RESULTS}/tables/friction_scale_{{scale}}.html",
             caption="../report/scale_table.rst",
             category=REPORT.tables,
+            subcategory="each scale",
             labels={"table": "friction on scale {scale}", "as": "page"},
         ),
     log:
@@ -49,8 +51,7 @@ rule total_table:
             caption="../report/total_table.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": "friction of all scales",
-                "in short": highest(output.table),
+                "answer": f"friction of the whole road: {highest(output.table)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -59,8 +60,7 @@ rule total_table:
             caption="../report/total_table.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": "friction of all scales",
-                "in short": highest(output.table),
+                "answer": f"friction of the whole road: {highest(output.table)}",
                 "as": "page",
             },
         ),
