@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from rubfric.arrays import Flags
 from rubfric.errors import InvalidInput
 from rubfric.rig.bearing import Drag, given_drag, measured_drag
 from rubfric.rig.clipping import clipped
@@ -105,6 +106,8 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
         sliding[part] = True
         place = record.displacement[part]
         way += float(np.sign(place[-1] - place[0])) * float(traction[part].sum())
+    if settings.traction == "rope" and settings.tare.how == "auto" and sliding.any():
+        _check_slack(record, zero, sliding)
     levels = normal[sliding] if sliding.any() else normal
     plateau = float(np.percentile(np.abs(levels), 75.0)) * (1.0 if np.median(levels) >= 0.0 else -1.0)
     if plateau < 0.0:
@@ -120,6 +123,16 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
             notes.append(f"the {name} force is clipped in {np.count_nonzero(beyond)} samples")
         flags |= beyond
     return Loaded(record, normal, traction, flags, plateau, zero), notes
+
+
+def _check_slack(record: Record, zero: Zero, sliding: Flags) -> None:
+    """Raise InvalidInput where the rope was not slack before the load: its tension is no zero of the sensor."""
+    tension, reading = (float(np.abs(force[sliding]).mean()) for force in (zero.traction, record.traction))
+    if tension > reading:
+        raise InvalidInput(
+            f"{record.name} has a traction of {tension:.4g} N before the load, more than the {reading:.4g} N in "
+            "sliding: was the rope slack then? If it was, say under tare in the YAML file of --columns from when to when"
+        )
 
 
 def _no_window(record: Record, settings: Settings) -> Rejected:

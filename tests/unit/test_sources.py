@@ -13,7 +13,7 @@ from rubfric.sources import sources
 
 PACKAGE = Path(rubfric.__file__).resolve().parent
 MODULES = ["rubfric.simulation", "rubfric.collection", "rubfric.tables", "rubfric.campaign", "rubfric.summary"]
-FIGURES = [f"rubfric.figures.{name}" for name in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7")]
+FIGURES = [f"rubfric.figures.{name}" for name in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7", "fig8", "fig9")]
 
 
 def imported(module: str) -> set[str]:
@@ -64,7 +64,7 @@ def test_scenes_do_not_depend_on_what_comes_after_them() -> None:
     assert {"contact.py", "block.py", "steady.py", "energy.py", "dataset.py", "checks.py"} <= files
 
 
-@pytest.mark.parametrize("module", ["rubfric.simulations", "rubfric.figures.fig9", "numpy", "rubfric", ""])
+@pytest.mark.parametrize("module", ["rubfric.simulations", "rubfric.figures.fig99", "numpy", "rubfric", ""])
 def test_unknown_module_is_refused(module: str) -> None:
     with pytest.raises(ModuleNotFoundError, match=f"^{module} is no module of rubfric$"):
         sources(module)
