@@ -45,6 +45,10 @@ REJECTED_COLUMNS = {
 }
 
 
+# Part of the traction in sliding by which its zero may move.
+_LARGEST_DRIFT = 0.5
+
+
 @dataclass(frozen=True)
 class Reduced:
     """What became of one run: its points, its rejected windows, and what was done to its record."""
@@ -106,8 +110,8 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
         sliding[part] = True
         place = record.displacement[part]
         way += float(np.sign(place[-1] - place[0])) * float(traction[part].sum())
-    if settings.traction == "rope" and settings.tare.how == "auto" and sliding.any():
-        _check_slack(record, zero, sliding)
+    if settings.tare.how == "auto" and sliding.any():
+        _check_zero(record, zero, sliding, settings.traction == "rope")
     levels = normal[sliding] if sliding.any() else normal
     plateau = float(np.percentile(np.abs(levels), 75.0)) * (1.0 if np.median(levels) >= 0.0 else -1.0)
     if plateau < 0.0:
@@ -125,13 +129,20 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
     return Loaded(record, normal, traction, flags, plateau, zero), notes
 
 
-def _check_slack(record: Record, zero: Zero, sliding: Flags) -> None:
-    """Raise InvalidInput where the rope was not slack before the load: its tension is no zero of the sensor."""
+def _check_zero(record: Record, zero: Zero, sliding: Flags, rope: bool) -> None:
+    """Raise InvalidInput where the zero of traction drifts too far, or is the tension of a rope that was not slack."""
     tension, reading = (float(np.abs(force[sliding]).mean()) for force in (zero.traction, record.traction))
-    if tension > reading:
+    drift = abs(float(zero.traction[-1] - zero.traction[0]))
+    pulled = float(np.abs((record.traction - zero.traction)[sliding]).mean())
+    if drift > _LARGEST_DRIFT * pulled:
         raise InvalidInput(
-            f"{record.name} has a traction of {tension:.4g} N before the load, more than the {reading:.4g} N in "
-            "sliding: was the rope slack then? If it was, say under tare in the YAML file of --columns from when to when"
+            f"{record.name} has a zero of traction that moves by {drift:.3g} N from before the load to after it, too "
+            f"much beside {pulled:.3g} N in sliding: say under tare in the YAML file of --columns when the rig was unloaded"
+        )
+    if rope and tension > reading:
+        raise InvalidInput(
+            f"{record.name} has a traction of {tension:.4g} N before the load, more than the {reading:.4g} N "
+            "in sliding: was the rope slack then? If it was, say under tare in the YAML file of --columns from when to when"
         )
 
 

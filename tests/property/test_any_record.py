@@ -55,9 +55,7 @@ def written(values: np.ndarray, units: dict[str, str], separator: str, decimal: 
 
 @cache
 def tidy() -> np.ndarray:
-    return points(
-        written(run(), dict.fromkeys(UNITS, "") | {name: next(iter(UNITS[name])) for name in UNITS}, ",", ".")
-    )
+    return points(written(run(), {name: next(iter(known)) for name, known in UNITS.items()}, ",", "."))
 
 
 ways = st.fixed_dictionaries(

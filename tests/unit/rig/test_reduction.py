@@ -87,12 +87,15 @@ def test_reasons_name_what_is_wrong(readings: np.ndarray, settings: Settings, rn
 def test_rope_under_tension_is_no_zero(readings: np.ndarray, settings: Settings) -> None:
     rope = replace(settings, traction="rope", sled_mass=5.0)
     taut = readings.copy()
-    taut[2] += np.where(readings[0] < 2.0, 70.0, 0.0)
-    with pytest.raises(
-        InvalidInput, match=r"has a traction of \d+\.?\d* N before the load, more than the .* in sliding"
-    ):
+    time = readings[0]
+    taut[2] += np.where((time < 2.0) | (time > time[-1] - 1.0), 70.0, 0.0)
+    with pytest.raises(InvalidInput, match=r"has a traction of \d+\.?\d* N before the load, more than the .* in sl"):
         reduced(taut, rope)
     assert reduced(readings, rope).points
+    tied = readings.copy()
+    tied[2] += np.where(time < 2.0, 70.0, 0.0)
+    with pytest.raises(InvalidInput, match=r"has a zero of traction that moves by [0-9.]+ N from before the load"):
+        reduced(tied, settings)
 
 
 def test_sled_at_rest_is_told(settings: Settings, readings: np.ndarray) -> None:
