@@ -137,12 +137,12 @@ def _check_zero(record: Record, zero: Zero, sliding: Flags, rope: bool) -> None:
     if drift > _LARGEST_DRIFT * pulled:
         raise InvalidInput(
             f"{record.name} has a zero of traction that moves by {drift:.3g} N from before the load to after it, too "
-            f"much beside {pulled:.3g} N in sliding: say under tare in the YAML file of --columns when the rig was unloaded"
+            f"much beside {pulled:.3g} N in sliding: say under tare in the YAML file of --columns when it was unloaded"
         )
     if rope and tension > reading:
         raise InvalidInput(
             f"{record.name} has a traction of {tension:.4g} N before the load, more than the {reading:.4g} N "
-            "in sliding: was the rope slack then? If it was, say under tare in the YAML file of --columns from when to when"
+            "in sliding: was the rope slack then? If it was, say from when to when under tare in the YAML of --columns"
         )
 
 
