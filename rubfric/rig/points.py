@@ -16,6 +16,8 @@ from rubfric.rig.windows import STEADY, Window
 
 # Independent samples that an interval of confidence needs, and windows below this part of the run's load.
 _FEWEST_EFFECTIVE, _UNLOADED = 10.0, 0.1
+# No rubber's friction coefficient on a road is larger.
+_LARGEST = 5.0
 # Order to which the polynomials in a window may be raised.
 _HIGHEST = 5
 
@@ -167,6 +169,8 @@ def _doubt(point: Point, changes: tuple[float, float], clear: bool, limits: Wind
         return f"the normal force changes by {100 * changes[0]:.2g} %, more than {100 * limits.load_range:g} %"
     if friction + doubt <= 0.0:
         return f"friction would be {friction:.3g}: traction points along the motion, or its zero is wrong"
+    if friction - doubt > _LARGEST:
+        return f"friction would be {friction:.3g}, more than any rubber's: look at the units and at the zero"
     if doubt > limits.largest_uncertainty * friction:
         return f"friction is not resolved: {friction:.2g} +- {doubt:.2g}"
     if point.kind == STEADY and clear and changes[1] > limits.drift:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from rubfric.arrays import Flags
 from rubfric.errors import InvalidInput
 from rubfric.rig.bearing import Drag, given_drag, measured_drag
 from rubfric.rig.clipping import clipped
@@ -42,6 +43,10 @@ REJECTED_COLUMNS = {
     "pressure": "pressure_MPa",
     "reason": "reason",
 }
+
+
+# Part of the traction in sliding by which its zero may move.
+_LARGEST_DRIFT = 0.5
 
 
 @dataclass(frozen=True)
@@ -105,6 +110,8 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
         sliding[part] = True
         place = record.displacement[part]
         way += float(np.sign(place[-1] - place[0])) * float(traction[part].sum())
+    if settings.tare.how == "auto" and sliding.any():
+        _check_zero(record, zero, sliding, settings.traction == "rope")
     levels = normal[sliding] if sliding.any() else normal
     plateau = float(np.percentile(np.abs(levels), 75.0)) * (1.0 if np.median(levels) >= 0.0 else -1.0)
     if plateau < 0.0:
@@ -120,6 +127,23 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
             notes.append(f"the {name} force is clipped in {np.count_nonzero(beyond)} samples")
         flags |= beyond
     return Loaded(record, normal, traction, flags, plateau, zero), notes
+
+
+def _check_zero(record: Record, zero: Zero, sliding: Flags, rope: bool) -> None:
+    """Raise InvalidInput where the zero of traction drifts too far, or is the tension of a rope that was not slack."""
+    tension, reading = (float(np.abs(force[sliding]).mean()) for force in (zero.traction, record.traction))
+    drift = abs(float(zero.traction[-1] - zero.traction[0]))
+    pulled = float(np.abs((record.traction - zero.traction)[sliding]).mean())
+    if drift > _LARGEST_DRIFT * pulled:
+        raise InvalidInput(
+            f"{record.name} has a zero of traction that moves by {drift:.3g} N from before the load to after it, too "
+            f"much beside {pulled:.3g} N in sliding: say under tare in the YAML file of --columns when it was unloaded"
+        )
+    if rope and tension > reading:
+        raise InvalidInput(
+            f"{record.name} has a traction of {tension:.4g} N before the load, more than the {reading:.4g} N "
+            "in sliding: was the rope slack then? If it was, say from when to when under tare in the YAML of --columns"
+        )
 
 
 def _no_window(record: Record, settings: Settings) -> Rejected:

@@ -32,6 +32,8 @@ class Cells:
         Samples ``start`` to ``end - 1``.
     speed : numpy.ndarray, shape (cells,)
         mm/s, positive where displacement grows.
+    error : numpy.ndarray, shape (cells,)
+        Standard errors of the speeds, from the resolution of the displacement, mm/s.
     moving : numpy.ndarray of bool, shape (cells,)
         Whether the travel in the cell exceeds what noise may be.
     """
@@ -39,6 +41,7 @@ class Cells:
     start: Whole
     end: Whole
     speed: Real
+    error: Real
     moving: Flags
 
 
@@ -64,14 +67,15 @@ def cells(record: Record, least_travel: float) -> Cells:
     travel = max(least_travel / _CELLS, _STEPS * fine)
     longest = max(record.time.size // _LONGEST, 2 * _FEWEST)
     bounds = [pair for part in record.stretches() for pair in _cut(record.displacement, part, travel, longest)]
-    speeds, moving = [], []
+    speeds, errors, moving = [], [], []
     for start, end in bounds:
         time, place = record.time[start:end], record.displacement[start:end]
         away = time - time.mean()
         speeds.append(float(away @ (place - place.mean()) / (away @ away)))
+        errors.append(fine / float(np.sqrt(away @ away)))
         moving.append(abs(speeds[-1]) * (time[-1] - time[0]) > max(0.25 * travel, 5.0 * fine))
     edges = np.array(bounds, dtype=np.int64).reshape(-1, 2)
-    return Cells(edges[:, 0], edges[:, 1], np.array(speeds), np.array(moving, dtype=bool))
+    return Cells(edges[:, 0], edges[:, 1], np.array(speeds), np.array(errors), np.array(moving, dtype=bool))
 
 
 def _cut(displacement: Real, part: slice, travel: float, longest: int) -> list[tuple[int, int]]:

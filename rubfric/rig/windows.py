@@ -16,6 +16,8 @@ STEADY, SWEEP = "steady", "sweep"
 _PLATEAU = 0.15
 # So many robust standard deviations are noise of the speeds.
 _NOISE = 2.5
+# The largest and the smallest of some hundred noisy speeds differ by about so many standard errors.
+_SCATTER = 5.0
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,7 @@ def _plateaus(
     if last <= first:
         return []
     speeds = np.abs(cells.speed)
-    reaches = [_reach(speeds, start, last, limits.steady_range) for start in range(first, last)]
+    reaches = [_reach(speeds, cells.error, start, last, limits.steady_range) for start in range(first, last)]
     best = max(reaches, key=lambda pair: int(cells.end[pair[1] - 1] - cells.start[pair[0]]))
     start, end = int(cells.start[best[0]]), int(cells.end[best[1] - 1])
     travel = abs(record.displacement[end - 1] - record.displacement[start])
@@ -96,15 +98,16 @@ def _sweep(cells: Cells, run: tuple[int, int], most: float) -> list[Window]:
     found = []
     start = run[0]
     while start < run[1]:
-        _, end = _reach(speeds, start, run[1], most)
+        _, end = _reach(speeds, cells.error, start, run[1], most)
         found.append(Window(int(cells.start[start]), int(cells.end[end - 1]), SWEEP))
         start = end
     return found
 
 
-def _reach(speeds: Real, start: int, last: int, most: float) -> tuple[int, int]:
-    """Return the cells from ``start`` on whose speeds differ by no more than ``most`` of the speed of the first."""
+def _reach(speeds: Real, errors: Real, start: int, last: int, most: float) -> tuple[int, int]:
+    """Return the cells from ``start`` on whose speeds differ by no more than ``most`` of them, and their noise."""
     part = speeds[start:last]
     spread = np.maximum.accumulate(part) - np.minimum.accumulate(part)
-    beyond = np.flatnonzero(spread > most * np.cumsum(part) / np.arange(1, part.size + 1))
+    allowed = np.cumsum(most * part + _SCATTER * errors[start:last]) / np.arange(1, part.size + 1)
+    beyond = np.flatnonzero(spread > allowed)
     return start, start + (int(beyond[0]) if beyond.size else part.size)

@@ -15,7 +15,7 @@ from rubfric.sources import sources, stamp
 
 PACKAGE = Path(rubfric.__file__).resolve().parent
 MODULES = ["rubfric.simulation", "rubfric.collection", "rubfric.tables", "rubfric.campaign", "rubfric.summary"]
-FIGURES = [f"rubfric.figures.{name}" for name in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7")]
+FIGURES = [f"rubfric.figures.{name}" for name in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7", "fig8", "fig9")]
 
 
 def imported(module: str) -> set[str]:

@@ -9,7 +9,7 @@ import sys
 import pandas as pd
 from project_copy import Plan, Project
 
-FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7"}
+FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7", "fig8", "fig9"}
 
 
 def test_copy_uses_its_own_package(template: Project) -> None:
@@ -30,7 +30,8 @@ def test_every_scene_has_a_result_and_nothing_else_has(template: Project) -> Non
 
 
 def test_tables_and_figures_are_there(template: Project) -> None:
-    assert set(template.tables) == {"friction_total.csv", *(f"friction_scale_{scale}.csv" for scale in range(1, 5))}
+    scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
+    assert set(template.tables) == {"friction_total.csv", "rig_points.csv", "rig_rejected.csv", *scales}
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
     assert (template.results / "campaign.nc").is_file()
@@ -51,7 +52,8 @@ def test_every_job_has_a_log(template: Project) -> None:
     logs = template.results / "logs"
     assert {path.stem for path in (logs / "scenes").rglob("*.log")} == set(template.scene_files)
     assert {path.stem for path in (logs / "figures").iterdir()} == FIGURES
-    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == set(template.tables)
+    # One job writes two tables of the rig.
+    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == set(template.tables) - {"rig_rejected.csv"}
     for path in (logs / "scenes").rglob("*.log"):
         assert "\nfriction coefficient   " in path.read_text()
 
@@ -102,6 +104,9 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "reading": 8,
         "claims": 1,
         "explorer": 1,
+        "rig_points": 1,
+        "rig_figure": 1,
+        "rig_schematic": 1,
     }
     assert plan.scenes == set(empty_project.campaign.scenes())
     assert plan.figures == FIGURES

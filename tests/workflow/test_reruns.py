@@ -13,7 +13,8 @@ from project_copy import Project
 
 TABLES = {"scale_table": 4, "total_table": 1}
 CLAIMS = {"claims": 1}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **CLAIMS, "explorer": 1}
+RIG = {"rig_points": 1, "rig_figure": 1, **CLAIMS}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **RIG, "explorer": 1}
 FIELDS = {"field_figure": 2, **CLAIMS}
 MARCHES = {"march": 1, "march_figure": 1, **CLAIMS}
 EVERYTHING = {"scene": 18, **CAMPAIGN, **FIELDS, **MARCHES, "reading": 8}
@@ -40,7 +41,7 @@ def test_another_value_runs_its_own_scenes_only(
     assert len(added) == count
     assert plan.scenes == added
     assert plan.jobs == {"scene": count, **CAMPAIGN, "reading": readings}
-    assert plan.figures == CAMPAIGN_FIGURES
+    assert plan.figures == CAMPAIGN_FIGURES | {"fig9"}
 
 
 def test_value_taken_away_runs_no_scene(project: Project) -> None:
@@ -63,6 +64,29 @@ def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> 
     plan = project.plan()
     assert plan.jobs == {"campaign_figure": 1, **CLAIMS}
     assert plan.figures == {"fig7"}
+
+
+@pytest.mark.parametrize(
+    ("at", "value"), [("rig.pressures", [1]), ("rig.virtual", {"seed": 1}), ("rig.virtual", {"sled_mass": 6})]
+)
+def test_other_rig_is_measured_and_drawn_alone(project: Project, at: str, value: Any) -> None:
+    project.configure(at, value)
+    assert project.plan().jobs == RIG
+
+
+def test_measured_runs_take_the_place_of_the_virtual_rig_or_are_named_as_missing(project: Project) -> None:
+    data = [f"data/run{number}.csv" for number in (1, 2)]
+    for name in (*data, "data/rig.yaml", "data/pull.csv"):
+        (project.root / name).parent.mkdir(exist_ok=True)
+        (project.root / name).write_text("area: 100\ntraction: rope\nsled_mass: 5\nbearing: {file: pull.csv}\n")
+    project.configure("rig.data", data)
+    project.configure("rig.columns", "data/rig.yaml")
+    assert project.plan().jobs == RIG
+    # One that is not there is named before any job.
+    (project.root / data[1]).unlink()
+    done = project.snakemake("-n")
+    assert done.returncode == 1
+    assert "The config is wrong: rig.data[1] is 'data/run2.csv', but there is no such file.\n" in done.stderr
 
 
 def test_order_and_spelling_of_numbers_run_nothing(project: Project) -> None:
@@ -90,8 +114,9 @@ def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule:
 def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> None:
     project.comment("rubfric/figures/style.py")
     plan = project.plan()
-    assert plan.jobs == {"campaign_figure": 4, "field_figure": 2, "march_figure": 1}
-    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES | {"fig5"}
+    drawn = {"campaign_figure": 4, "field_figure": 2, "march_figure": 1, "rig_figure": 1, "rig_schematic": 1}
+    assert plan.jobs == drawn
+    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES | {"fig5", "fig8", "fig9"}
 
 
 def test_edited_mechanics_run_everything(project: Project) -> None:
@@ -122,14 +147,14 @@ def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -
 
 def test_edited_tables_are_written_again_alone(project: Project) -> None:
     project.comment("rubfric/tables.py")
-    assert project.plan().jobs == TABLES
+    assert project.plan().jobs == {**TABLES, **RIG}
 
 
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/multiscale.py")
     plan = project.plan()
-    assert plan.jobs == {**TABLES, "campaign_figure": 1, **CLAIMS, "explorer": 1}
-    assert plan.figures == {"fig7"}
+    assert plan.jobs == {**TABLES, "campaign_figure": 1, **RIG, "explorer": 1}
+    assert plan.figures == {"fig7", "fig9"}
 
 
 @pytest.mark.parametrize("name", ["page.py", "explorer.js"])

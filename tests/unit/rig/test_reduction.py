@@ -74,6 +74,7 @@ def test_reasons_name_what_is_wrong(readings: np.ndarray, settings: Settings, rn
         "the normal force changes by": (with_(1, 10.0 * ramp), settings),
         "friction changes by": (with_(2, 5.0 * ramp), settings),
         "friction is not resolved": (with_(2, 3000.0 * rng.standard_normal(ramp.size) * sliding), settings),
+        "more than any rubber's: look at the units": (readings * np.array([[1.0], [0.05], [1.0], [1.0]]), settings),
         "slid only": (readings, replace(settings, windows=Windows(least_travel=50.0))),
         "fewer than 5000": (readings, replace(settings, windows=Windows(least_samples=5000))),
     }
@@ -81,6 +82,20 @@ def test_reasons_name_what_is_wrong(readings: np.ndarray, settings: Settings, rn
         found = reduced(changed, chosen)
         assert not found.points, reason
         assert any(reason in window.reason for window in found.rejected), (reason, found.rejected)
+
+
+def test_rope_under_tension_is_no_zero(readings: np.ndarray, settings: Settings) -> None:
+    rope = replace(settings, traction="rope", sled_mass=5.0)
+    taut = readings.copy()
+    time = readings[0]
+    taut[2] += np.where((time < 2.0) | (time > time[-1] - 1.0), 70.0, 0.0)
+    with pytest.raises(InvalidInput, match=r"has a traction of \d+\.?\d* N before the load, more than the .* in sl"):
+        reduced(taut, rope)
+    assert reduced(readings, rope).points
+    tied = readings.copy()
+    tied[2] += np.where(time < 2.0, 70.0, 0.0)
+    with pytest.raises(InvalidInput, match=r"has a zero of traction that moves by [0-9.]+ N from before the load"):
+        reduced(tied, settings)
 
 
 def test_sled_at_rest_is_told(settings: Settings, readings: np.ndarray) -> None:

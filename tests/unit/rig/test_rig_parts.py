@@ -85,6 +85,8 @@ def test_speed_is_that_of_the_sled(noise: float, rng: np.random.Generator) -> No
     middle = 0.5 * (run.time[pieces.start] + run.time[pieces.end - 1])
     steady = (middle > 1.05) & (middle < 3.95)
     np.testing.assert_allclose(pieces.speed[steady], 20.0, rtol=0.1)
+    if noise:
+        assert pieces.speed[steady].std() == pytest.approx(pieces.error[steady].mean(), rel=0.4)
     assert abs(pieces.speed[steady].mean() - 20.0) < 0.05
     assert not pieces.moving[pieces.end <= 500].any()
     assert pieces.moving[steady].all()
