@@ -31,7 +31,9 @@ def test_every_scene_has_a_result_and_nothing_else_has(template: Project) -> Non
 
 def test_tables_and_figures_are_there(template: Project) -> None:
     scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
-    assert set(template.tables) == {"friction_total.csv", "rig_points.csv", "rig_rejected.csv", *scales}
+    assert set(template.tables) == {"friction_total.csv", *scales}
+    others = {f"{name}.csv" for name in ("rig_points", "rig_rejected", "claims", "claims_evidence")}
+    assert {path.name for path in (template.results / "tables").glob("*.csv")} == set(template.tables) | others
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
     assert (template.results / "campaign.nc").is_file()
@@ -52,8 +54,7 @@ def test_every_job_has_a_log(template: Project) -> None:
     logs = template.results / "logs"
     assert {path.stem for path in (logs / "scenes").rglob("*.log")} == set(template.scene_files)
     assert {path.stem for path in (logs / "figures").iterdir()} == FIGURES
-    # One job writes two tables of the rig.
-    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == set(template.tables) - {"rig_rejected.csv"}
+    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == {*template.tables, "rig_points.csv"}
     for path in (logs / "scenes").rglob("*.log"):
         assert "\nfriction coefficient   " in path.read_text()
 
@@ -62,11 +63,12 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     lines = (template.results / "logs" / "run.log").read_text().splitlines()
     assert "  18 of 18 scenes" in "\n".join(lines)
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
-    assert lines[end].endswith(": 18 scenes, 1 march, 5 tables, 7 figures, 1 other job")
+    made = ": 18 scenes, 1 march, 8 batches of other readings, 5 tables, 8 figures, 5 other jobs"
+    assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?scale\S+ \S+ s, ", lines[end + 1])
     assert lines[end + 2].startswith("  largest estimated error of friction ")
     assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
-    assert lines[end + 4].startswith("  open first: results/minimal/tables/friction_total.csv")
+    assert lines[end + 4].startswith("  open first: results/minimal/claims.html, results/minimal/tables/friction_total")
     assert end < 60
 
 
