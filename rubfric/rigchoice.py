@@ -12,6 +12,7 @@ from rubfric.errors import InvalidInput
 # Where the sensor of traction sits.
 TRACTIONS = ("rubber", "rope")
 MOST_SAMPLING = 1e6
+_LONGEST_PATH = 1000
 
 
 @dataclass(frozen=True)
@@ -124,4 +125,6 @@ def _no_less_than_nothing(entry: Mapping[str, Any], name: str) -> float:
 def _path(key: str, value: Any) -> str:
     if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
         raise InvalidInput(f"{key} is {checks.shown(value)}, but must be the path of a file, without braces")
+    if len(value) > _LONGEST_PATH:
+        raise InvalidInput(f"{key} is {checks.shown(value)}, but must be a path of at most {_LONGEST_PATH} letters")
     return value

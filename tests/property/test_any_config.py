@@ -49,7 +49,7 @@ NO_MAPPINGS = (None, 5, "text", [], [1, 2])
 NO_FOLDERS = (None, True, 5, float("nan"), "", " ", "a\nb", "{x}", "\ud800", "\0", [], ["results"], {}, "x" * 5000)
 # No quantity and no count is so large.
 HUGE = (1e31, 1e300, 10**31)
-EMPTY_ALLOWED = ("shear_fractions", "relaxation_times")
+EMPTY_ALLOWED = ("shear_fractions", "relaxation_times", "data")
 OPTIONAL = ("moduli", "bulk", "density")
 CATALOGUES = (("rubbers",), ("roads",), ("presets",))
 
@@ -150,6 +150,8 @@ def cases(config: Config) -> Iterator[tuple[Way, Any]]:
             values = NO_LISTS if way[-1] in EMPTY_ALLOWED else (*NO_LISTS, [])
         elif isinstance(entry, str):
             values = NO_FOLDERS if way[-1] == "results" else NO_WORDS
+        elif entry is None:  # a file may be named there
+            values = tuple(value for value in NO_FOLDERS if value is not None)
         else:
             values = (*NO_NUMBERS, *HUGE)
         yield from ((way, value) for value in values)
