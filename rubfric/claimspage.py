@@ -8,7 +8,7 @@ from html import escape
 
 import pandas as pd
 
-from rubfric.judgement import EVERY, FAILS, HOLDS, IN_PART, UNDECIDED
+from rubfric.judgement import EVERY, FAILS, HOLDS, IN_PART, SIMULATED, UNDECIDED
 from rubfric.readings import AS_CONFIGURED
 
 # A mark besides the colour, for print and for eyes that tell no green from red.
@@ -168,7 +168,7 @@ def _verdict_of(whole: pd.DataFrame, claim: str, reading: str) -> str:
 def _chip(verdict: str) -> str:
     if not verdict:
         return '<span class="open">not run</span>'
-    mark, kind = _MARKS[verdict]
+    mark, kind = _MARKS[verdict.removesuffix(SIMULATED)]
     return f'<span class="verdict {kind}">{mark} {verdict}</span>'
 
 

@@ -37,6 +37,8 @@ class Evidence:
     limit : float
     sense : {"above", "below"}
         Where the value has to be for the claim to hold.
+    simulated : bool
+        Whether a simulation stands in for a measurement.
     outcome : {"yes", "no", "open"}
         ``open`` where the limit is within the error of the value.
     """
@@ -50,6 +52,7 @@ class Evidence:
     error: float
     limit: float
     sense: str
+    simulated: bool = False
 
     @property
     def margin(self) -> float:

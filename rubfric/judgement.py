@@ -12,6 +12,8 @@ from rubfric.statements import CLAIMS
 
 HOLDS, IN_PART, FAILS, UNDECIDED = "holds", "holds in part", "does not hold", "not decided"
 EVERY = "all"
+# What a verdict ends with where a simulation stands in for a measurement.
+SIMULATED = " (simulated)"
 
 _PLACES = {"scale": "scale", "pressure": "pressure_MPa", "velocity": "velocity_mm_per_s"}
 COLUMNS = (
@@ -88,9 +90,10 @@ def claims_table(
 
 def _row(name: str, reading: str, pressure: float | str, evidence: Sequence[Evidence], note: str) -> dict[str, object]:
     claim = CLAIMS[name]
+    simulated = SIMULATED if any(one.simulated for one in evidence) else ""
     row: dict[str, object] = {
         **{"claim": name, "figure": claim.figure, "says": claim.says, "reading": reading, "pressure_MPa": pressure},
-        "verdict": verdict([one.outcome for one in evidence]),
+        "verdict": verdict([one.outcome for one in evidence]) + simulated,
         **{word: sum(one.outcome == word for one in evidence) for word in ("yes", "no", "open")},
         "parts": _parts(name, evidence),
         "note": note,

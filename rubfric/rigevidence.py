@@ -53,7 +53,8 @@ def _of_one_pressure(group: pd.DataFrame) -> Iterator[Evidence]:
     pressure = float(f"{group[_PRESSURE].median():.3g}")
     top = int(np.argmax(friction))
     speed = float(f"{group[_SPEED].iloc[top]:.3g}")
+    simulated = bool((group["source"] == "simulated").any())
     for part, end in (("rises to a peak", 0), ("falls past the peak", -1)):
         base = max(abs(friction[end]), float(np.finfo(float).tiny))
         value, error = (friction[top] - friction[end]) / base, (spread[top] + spread[end]) / base
-        yield Evidence("C8", part, None, pressure, speed, value, error, 0.0, "above")
+        yield Evidence("C8", part, None, pressure, speed, value, error, 0.0, "above", simulated)

@@ -16,6 +16,7 @@ VERDICTS = {
     "C5": "holds in part",
     "C6": "holds",
     "C7": "holds",
+    "C8": "holds (simulated)",
 }
 
 

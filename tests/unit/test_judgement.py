@@ -82,6 +82,13 @@ def test_where_nothing_contradicts_the_undecided_number_is_told() -> None:
     assert (row["verdict"], row["value"]) == (HOLDS, 0.5)
 
 
+def test_verdict_on_a_virtual_rig_says_that_it_is_simulated() -> None:
+    rises = Evidence("C8", "rises to a peak", None, 5.0, 100.0, 0.5, 0.01, 0.0, "above", simulated=True)
+    claims = claims_table({AS_CONFIGURED: [rises]}, 5.0, {})
+    assert claims.set_index(["claim", "pressure_MPa"]).loc[("C8", EVERY), "verdict"] == "holds (simulated)"
+    assert "● holds (simulated)" in claims_page(claims, evidence_table({AS_CONFIGURED: [rises]}), ABOUT)
+
+
 def test_evidence_names_its_quantity() -> None:
     table = evidence_table(EVIDENCE)
     assert len(table) == 8

@@ -48,5 +48,7 @@ def test_no_points_decide_nothing() -> None:
 
 
 def test_simulated_points_are_told() -> None:
+    assert {one.simulated for one in rig_evidence(points([0.1, 0.2, 0.1], [1.0], source="simulated"))} == {True}
+    assert {one.simulated for one in rig_evidence(points([0.1, 0.2, 0.1], [1.0]))} == {False}
     assert rig_note(points([0.1, 0.2, 0.3], [1.0], source="simulated")).startswith("3 of 3 points are SIMULATED")
     assert rig_note(points([0.1, 0.2, 0.3], [1.0])) == "From 3 measured points."
