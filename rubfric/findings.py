@@ -17,7 +17,7 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     """
     scenes, warned, worst, where = 0, 0, -1.0, ""
     for path in tables:
-        for row in _rows(path):
+        for row in _rows(path, "friction_coefficient_error", "warnings"):
             friction, error = float(row["friction_coefficient"]), float(row["friction_coefficient_error"])
             scenes += 1
             warned += int(row["warnings"]) > 0
@@ -32,14 +32,13 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     ]
 
 
-def _rows(path: str | os.PathLike[str]) -> list[dict[str, str]]:
-    """Return the rows of a table; none where it is missing or of another version."""
+def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
+    """Return the rows of a table in which these columns say something; none where it is missing or lacks them."""
     try:
         with open(path, encoding="utf-8", newline="") as stream:
-            rows = list(csv.DictReader(stream))
+            return [row for row in csv.DictReader(stream) if all(row.get(column) for column in columns)]
     except OSError:
         return []
-    return [row for row in rows if {"friction_coefficient_error", "warnings"} <= row.keys()]
 
 
 def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
@@ -50,11 +49,7 @@ def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
 
 def highest(path: str | os.PathLike[str]) -> str:
     """Return in words where the table of all scales has its largest friction; empty where it is missing."""
-    try:
-        with open(path, encoding="utf-8", newline="") as stream:
-            rows = [row for row in csv.DictReader(stream) if row.get("friction_total")]
-    except OSError:
-        return ""
+    rows = _rows(path, "friction_total")
     if not rows:
         return ""
     top = max(rows, key=lambda row: float(row["friction_total"]))
@@ -67,11 +62,7 @@ def highest(path: str | os.PathLike[str]) -> str:
 
 def verdicts(path: str | os.PathLike[str]) -> str:
     """Return in words how many of the paper's claims hold, from their table; empty where it is missing."""
-    try:
-        with open(path, encoding="utf-8", newline="") as stream:
-            rows = [row for row in csv.DictReader(stream) if row.get("verdict")]
-    except OSError:
-        return ""
+    rows = _rows(path, "verdict")
     # The campaign itself stands first; its verdicts over all pressures are the claims'.
     found = [row["verdict"] for row in rows if (row["reading"], row["pressure_MPa"]) == (rows[0]["reading"], "all")]
     counts = {word: found.count(word) for word in dict.fromkeys(sorted(found))}
