@@ -46,9 +46,6 @@ def claims_page(claims: pd.DataFrame, evidence: pd.DataFrame, about: Mapping[str
         f"this campaign, each against its own error. {escape(about[AS_CONFIGURED])}</p>",
         _summary(whole, readings),
         f"<p>{_legend()}</p>",
-        "<h2>The other readings</h2>",
-        "<p>The paper leaves open whether its modulus is of the relaxed or of the instantaneous rubber, and its text "
-        "does not name the plane, only its element. The whole campaign was therefore run again:</p>",
         *_readings(claims, readings, about),
         "<h2>How the verdicts move with pressure</h2>",
         "<p>The paper names one of its pressures only (5 MPa). The grid here spans partial to full contact.</p>",
@@ -104,6 +101,12 @@ def _by_pressure(claims: pd.DataFrame) -> str:
 
 
 def _readings(claims: pd.DataFrame, readings: list[str], about: Mapping[str, str]) -> Iterable[str]:
+    if len(readings) > 1:
+        yield "<h2>The other readings</h2>"
+        yield (
+            "<p>The paper leaves open whether its modulus is of the relaxed or of the instantaneous rubber, and its "
+            "text does not name the plane, only its element. The whole campaign was therefore run again:</p>"
+        )
     for reading in readings:
         if reading != AS_CONFIGURED:
             whole = claims[(claims["reading"] == reading) & (claims["pressure_MPa"] == EVERY)]

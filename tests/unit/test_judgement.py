@@ -108,6 +108,13 @@ def test_page_tells_every_claim_verdict_and_reading() -> None:
     assert "nan" not in page
 
 
+def test_page_without_other_readings_does_not_speak_of_them() -> None:
+    alone = {AS_CONFIGURED: EVIDENCE[AS_CONFIGURED]}
+    page = claims_page(claims_table(alone, 5.0, {}), evidence_table(alone), ABOUT)
+    assert "other readings" not in page
+    assert "not run" not in page
+
+
 def test_table_for_the_readme_has_a_line_for_each_claim() -> None:
     lines = claims_text(claims_table(EVIDENCE, 5.0, NOTES)).splitlines()
     assert lines[0] == "| the paper's claim | decided by | here | other plane |"
