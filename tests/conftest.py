@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from rubfric.material import Material
 from rubfric.road import SineScale
@@ -24,11 +27,22 @@ TOGETHER = ("workflow", "results")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep together what shares fixtures: a folder of ``TOGETHER``, else a file; the longest first."""
-    for item in items:
-        folder = item.path.parent.name
-        item.add_marker(pytest.mark.xdist_group(folder if folder in TOGETHER else item.path.stem))
+    """Begin with what takes longest: the folders of ``TOGETHER``, then verification."""
     items.sort(key=lambda item: (item.path.parent.name not in TOGETHER, item.path.parent.name != "verification"))
+
+
+class _ByFolder(LoadScopeScheduling):  # type: ignore[misc]
+    """Gives workers a folder of ``TOGETHER`` whole, and of all others file by file."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file = nodeid.partition("::")[0]
+        folder = Path(file).parent.name
+        return folder if folder in TOGETHER else file
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> _ByFolder:
+    """Return what deals out the tests where several workers run them."""
+    return _ByFolder(config, log)
 
 
 @pytest.fixture(autouse=True)
