@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.errors import InvalidInput
-from rubfric.rig.estimate import centre
+from rubfric.rig.estimate import mean, noise_of, weights
 from rubfric.rig.record import Record
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.speed import cells
@@ -69,19 +69,20 @@ def measured_drag(pull: Record, settings: Settings) -> Drag:
         part = slice(window.start, window.end)
         if window.end - window.start < settings.windows.least_samples:
             continue
-        place = centre(pull.time[part], pull.displacement[part], 3)
-        pulled = centre(pull.time[part], traction[part], 2)
-        way = np.sign(place.slope)
-        inertia = 1e-3 * settings.sled_mass * place.curvature * way
-        speeds.append(abs(place.slope))
+        time, place, over = pull.time[part], pull.displacement[part], weights(pull.time[part])
+        noise = noise_of(time, place, 1)
+        speed, acceleration = mean(place, over.rate, noise), mean(place, over.bend, noise)
+        pulled = mean(traction[part], over.mean, noise_of(time, traction[part], 1, longer=zero.longer))
+        inertia = 1e-3 * settings.sled_mass * acceleration.value * np.sign(speed.value)
+        speeds.append(abs(speed.value))
         forces.append(abs(pulled.value) - inertia)
-        errors.append(np.hypot(pulled.value_error, 1e-3 * settings.sled_mass * place.curvature_error))
+        errors.append(np.hypot(pulled.error, 1e-3 * settings.sled_mass * acceleration.error))
     if not speeds:
         raise InvalidInput(f"{pull.name} shows no unloaded sliding from which the drag of the bearings could be taken")
-    weights = 1.0 / np.maximum(errors, 1e-12 * max(1.0, *map(abs, forces)))
+    trust = 1.0 / np.maximum(errors, 1e-12 * max(1.0, *map(abs, forces)))
     sloped = len(speeds) >= _FEWEST and max(speeds) >= _SPAN * min(speeds)
     powers = np.vander(speeds, 2 if sloped else 1, increasing=True)
-    found, *_ = np.linalg.lstsq(powers * weights[:, None], np.array(forces) * weights, rcond=None)
+    found, *_ = np.linalg.lstsq(powers * trust[:, None], np.array(forces) * trust, rcond=None)
     spread = np.array(forces) - powers @ found
     freedom = max(len(speeds) - found.size, 1)
     doubt = max(
