@@ -177,11 +177,11 @@ def _numbers(
 
 def _decimal(path: str, words: Sequence[str]) -> str:
     """Return the decimal mark: a comma where numbers have commas, unless those may part thousands."""
-    numbers = [word.strip() for word in words if _looks_numeric(word)]
-    commas = [word for word in numbers if "," in word]
+    commas = [word.strip() for word in words if "," in word and _looks_numeric(word)]
     if not commas:
         return "."
-    if any("." in word for word in numbers) or any(word.count(",") > 1 for word in commas):
+    points = any("." in word and _looks_numeric(word) for word in words)
+    if points or any(word.count(",") > 1 for word in commas):
         raise InvalidInput(
             f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
             "thousands, or say in the YAML file of --columns which one is the decimal"
@@ -197,10 +197,9 @@ def _decimal(path: str, words: Sequence[str]) -> str:
 def _number(word: str, mark: str) -> float | None:
     """Return a number, NaN for a missing one, infinity for an overloaded input, or None for anything else."""
     plain = word.strip()
-    if plain.casefold() in _MISSING:
-        return math.nan
-    if plain.casefold() in _OVERLOADED:
-        return math.inf
+    if not _NUMBER.match(plain):
+        folded = plain.casefold()
+        return math.nan if folded in _MISSING else math.inf if folded in _OVERLOADED else None
     # The other mark parts thousands, where the user has said so.
     plain = plain.replace(".", "").replace(",", ".") if mark == "," else plain.replace(",", "")
-    return float(plain) if _NUMBER.match(plain) and plain.count(".") <= 1 else None
+    return float(plain) if plain.count(".") <= 1 else None
