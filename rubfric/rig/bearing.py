@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +32,10 @@ class Drag:
     coefficient : float
         Dimensionless.
     error : float
-        Standard error of the drag, N.
+        Standard error of the drag, N; of a drag with damping, at the speed ``middle``.
     notes : tuple of str
+    middle, damping_error : float
+        Mean speed of what the damping was taken from, mm/s, and its standard error, N s/mm.
     """
 
     force: float
@@ -40,10 +43,16 @@ class Drag:
     coefficient: float
     error: float
     notes: tuple[str, ...] = ()
+    middle: float = 0.0
+    damping_error: float = 0.0
 
     def __call__(self, speed: float, normal: float) -> float:
         """Return the drag (N) at a speed (mm/s, positive) and a normal force (N)."""
         return self.force + self.damping * speed + self.coefficient * normal
+
+    def error_at(self, speed: float) -> float:
+        """Return the standard error of the drag (N) at a speed (mm/s); it grows away from the measured ones."""
+        return math.hypot(self.error, self.damping_error * (speed - self.middle))
 
 
 def given_drag(bearing: Bearing) -> Drag:
@@ -89,5 +98,10 @@ def measured_drag(pull: Record, settings: Settings) -> Drag:
         float(np.sqrt(spread @ spread / freedom / len(speeds))), float(np.min(errors)), float(zero.traction_error.max())
     )
     force, damping = float(found[0]), float(found[1]) if sloped else 0.0
+    middle = float(np.average(speeds, weights=trust**2))
+    # No less than the scatter about the line tells, nor than the errors of its points.
+    unit = max(1.0, float(np.sqrt(np.sum((spread * trust) ** 2) / freedom)))
+    tilt = unit / float(np.linalg.norm(trust * (np.array(speeds) - middle))) if sloped else 0.0
     told = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * doubt:.2g} N"
-    return Drag(force, damping, settings.bearing.coefficient, doubt, (f"{told}, from {pull.name}",))
+    notes = (f"{told}, from {pull.name} at {min(speeds):.3g} to {max(speeds):.3g} mm/s",)
+    return Drag(force, damping, settings.bearing.coefficient, doubt, notes, middle, tilt)

@@ -109,7 +109,7 @@ def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> 
     friction, besides, errors = traction, 0.0, []
     if settings.traction == "rope":
         friction -= 1e-3 * settings.sled_mass * acceleration.value + drag(motion.value, normal.value)
-        errors = [1e-3 * settings.sled_mass * acceleration.error, drag.error]
+        errors = [1e-3 * settings.sled_mass * acceleration.error, drag.error_at(motion.value)]
         besides = drag.coefficient
     ratio = friction / normal.value
     left = pulling - (ratio + besides) * pressing

@@ -22,6 +22,8 @@ DECIMALS = {"point": ".", "comma": ","}
 # Lines that may stand before the headings, and rows that have to look like numbers below them.
 _LONGEST_PREAMBLE, _ROWS_TO_LOOK_AT = 300, 3
 _FEWEST_COLUMNS = 4
+# Lines below the headings that are enough to know them: a line of units, and the rows to look at with empty ones.
+_LOOKED_AT = 2 + 2 * _ROWS_TO_LOOK_AT
 # Share of rows that may be unreadable.
 _MOST_UNREADABLE = 0.05
 _MISSING = {"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?", "inf", "-inf", "+inf"}
@@ -76,9 +78,9 @@ def read_text(path: str, separator: str | None = None, decimal: str | None = Non
     lines = _decoded(path).splitlines()
     kinds = [separator] if separator else list(SEPARATORS)
     for kind in kinds:
-        rows = _split(lines, SEPARATORS[kind])
-        start = _headings(rows)
+        start = _headings(_split(lines[: _LONGEST_PREAMBLE + _LOOKED_AT], SEPARATORS[kind]))
         if start is not None:
+            rows = _split(lines, SEPARATORS[kind])
             break
     else:
         raise InvalidInput(
@@ -201,5 +203,10 @@ def _number(word: str, mark: str) -> float | None:
         folded = plain.casefold()
         return math.nan if folded in _MISSING else math.inf if folded in _OVERLOADED else None
     # The other mark parts thousands, where the user has said so.
-    plain = plain.replace(".", "").replace(",", ".") if mark == "," else plain.replace(",", "")
-    return float(plain) if plain.count(".") <= 1 else None
+    other = "." if mark == "," else ","
+    if other in plain:
+        plain = plain.replace(other, "")
+    try:
+        return float(plain.replace(mark, "."))
+    except ValueError:  # a mark that stands twice
+        return None
