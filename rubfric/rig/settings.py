@@ -197,7 +197,8 @@ def _forces(key: str, value: Any) -> dict[str, float]:
 
 def _gains(key: str, value: Any) -> dict[str, float]:
     checks.known_keys(key, value, (*_FORCES, "displacement"))
-    return {name: checks.between(f"{key}.{name}", number, 0.0, 1.0) for name, number in value.items()}
+    at = {name: f"{key}.{name}" for name in value}
+    return {name: checks.at_most(at[name], checks.at_least(at[name], value[name], 0.0), 1.0) for name in value}
 
 
 def _windows(key: str, value: Any) -> Windows:
