@@ -20,7 +20,7 @@ _FEWEST_EFFECTIVE, _UNLOADED = 10.0, 0.1
 _CONSISTENT = 0.5
 # Mean friction differs from friction at the mean speed by half its second derivative over ln(speed), times the variance
 # of ln(speed): (change of ln(speed) / 2)² / 7 under the weight. Of a Maxwell element's friction, ~ 1 / cosh(ln(speed)),
-# that derivative is no larger than friction itself; nor is it then of any sum of elements and scales.
+# that derivative is no larger than friction itself; nor is it, at a given contact, of a sum of elements and scales.
 _SPREAD = 0.5 / 4.0 / 7.0
 # No rubber's friction coefficient on a road is larger.
 _LARGEST = 5.0
