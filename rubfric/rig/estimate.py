@@ -1,111 +1,174 @@
-"""Values in the middle of a window, with their confidence, from samples that may be correlated."""
+"""Means over a window, with their confidence, from samples that may be correlated and whose speed may change.
+
+A window has a slow change of speed that no one knows the form of, and friction follows it. A polynomial fitted to each
+quantity would have to be of the right order: a bend too small to be seen shifts a value in the middle by up to several
+of its standard errors. Means need no order. All quantities are averaged with the same weight, w = (1 - u²)² over the
+window (u from -1 to 1), and belong together whatever the speed does: of the equation of motion this is the weak form,
+with w for a test function. As w and its slope vanish at both ends, partial integration takes the mean speed and
+the mean acceleration from the displacement itself: int w v dt = -int w' x dt, int w a dt = int w'' x dt. (For evenly
+spaced times the latter is the parabola fitted by least squares.)
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
 from scipy.stats import t as student
 
 from rubfric.arrays import Real
 
 CONFIDENCE = 0.95
-# A coefficient of a polynomial counts where it exceeds so many of its standard errors.
-_CLEAR = 3.0
+# A coefficient of a polynomial counts where it exceeds so many of its standard errors, up to this order.
+_CLEAR, _HIGHEST = 3.0, 7
 
 
 @dataclass(frozen=True)
-class Centre:
-    """A local polynomial's value and slopes in the middle of a window.
+class Mean:
+    """A weighted sum of samples.
 
     Attributes
     ----------
-    value, slope, curvature : float
-        The polynomial and its first and second derivative there, in units of the samples and of s.
-    value_error, slope_error, curvature_error : float
-        Their standard errors.
+    value, error : float
+        Its value and its standard error, in units of the samples times those of the weights.
     effective : float
-        Number of independent samples that are worth as much.
+        Number of independent samples in the window that are worth as much.
     freedom : float
-        Degrees of freedom of the standard errors.
+        Degrees of freedom of the standard error.
     """
 
     value: float
-    slope: float
-    curvature: float
-    value_error: float
-    slope_error: float
-    curvature_error: float
+    error: float
     effective: float
     freedom: float
 
 
-def centre(time: Real, values: Real, order: int, most: int | None = None, longer: float = 1.0) -> Centre:
-    """Fit a polynomial to samples by least squares and evaluate it in the middle of their times.
+@dataclass(frozen=True)
+class Noise:
+    """What is left of the samples of a window when a polynomial of visible order is taken out.
 
-    The standard errors are those of as many independent samples as the residuals are worth. The order is raised while
-    the next coefficient exceeds three times its standard error, so that no visible bend is taken for noise.
+    Attributes
+    ----------
+    variance : float
+        Of the samples, times how many correlated ones are worth one independent one; their unit squared.
+    effective, freedom : float
+        As in ``Mean``.
+    slope, slope_error : float
+        Of a straight line through the samples, per s, and its standard error.
+    """
+
+    variance: float
+    effective: float
+    freedom: float
+    slope: float
+    slope_error: float
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What samples of a window are multiplied by, and summed, for means of the same weight.
+
+    Attributes
+    ----------
+    mean : numpy.ndarray, shape (samples,)
+        For the mean of what is sampled.
+    rate, bend : numpy.ndarray, shape (samples,)
+        For the mean of its first and of its second derivative, 1/s and 1/s².
+    """
+
+    mean: Real
+    rate: Real
+    bend: Real
+
+
+def weights(time: Real) -> Weights:
+    """Return the weights (1 - u²)² of a window; its samples may lie at any distance.
+
+    Between two samples each quantity runs straight. So the mean rate of what is sampled is exact for a straight line,
+    and the mean of a force belongs to it however uneven the samples are.
+
+    Parameters
+    ----------
+    time : numpy.ndarray, shape (samples,)
+        s, rising; three samples at least.
+    """
+    steps = np.diff(time)
+    half = 0.5 * (time[-1] - time[0])
+    along = (time - 0.5 * (time[0] + time[-1])) / half
+    weight = (1.0 - along**2) ** 2 * (15.0 / 16.0) / half
+    inside = np.diff(along - 2.0 / 3.0 * along**3 + along**5 / 5.0) * (15.0 / 16.0)  # of each step, 1 in all
+    mean = 0.5 * (np.append(inside, 0.0) + np.append(0.0, inside))
+    rate = -np.diff(inside / steps, prepend=0.0, append=0.0)
+    bend = np.diff(np.diff(weight) / steps, prepend=0.0, append=0.0)
+    # Exact for a parabola, too.
+    bend /= 0.5 * float(bend @ (time - time.mean()) ** 2)
+    return Weights(mean, rate, bend)
+
+
+def mean(values: Real, weight: Real, noise: Noise) -> Mean:
+    """Return the weighted sum of samples with its standard error.
+
+    Parameters
+    ----------
+    values, weight : numpy.ndarray, shape (samples,)
+    noise : Noise
+        Of the samples.
+    """
+    error = math.sqrt(noise.variance) * float(np.linalg.norm(weight))
+    return Mean(float(weight @ values), error, noise.effective, noise.freedom)
+
+
+def plain_mean(time: Real, values: Real) -> Mean:
+    """Return the mean of samples of one height, all of one weight."""
+    return mean(values, np.full(values.size, 1.0 / values.size), noise_of(time, values, 0, 0))
+
+
+def noise_of(time: Real, values: Real, order: int, most: int = _HIGHEST, longer: float = 1.0) -> Noise:
+    """Return the noise of samples about a polynomial.
+
+    Its order is raised while the next coefficient exceeds three times its standard error. What bend is left unseen
+    counts as noise; it widens intervals a little, and shifts nothing.
 
     Parameters
     ----------
     time, values : numpy.ndarray, shape (samples,)
         s, and any unit; times rise, at any distance.
     order, most : int
-        Of the polynomial: to begin with, and at most (as at the beginning, by default).
+        Of the polynomial: to begin with, and at most.
     longer : float
         Samples that are worth one independent sample, at least: what is known of the noise from elsewhere.
     """
-    found, best = _fit(time, values, order, longer), order
-    for higher in range(order + 1, order + 1 if most is None else most + 1):
-        other = _fit(time, values, higher, longer)
-        if abs(other.last) > _CLEAR * other.last_error:
-            found, best = other, higher
-    if best == order:
-        return found.centre
-    # Samples that bend once may bend on, unseen: two orders more tell by how much that may shift the result.
-    return _doubted(found.centre, _fit(time, values, best + 2, longer).centre)
-
-
-def _doubted(found: Centre, other: Centre) -> Centre:
-    """Return a result whose standard errors include its distance from another one."""
-    names = ("value", "slope", "curvature")
-    errors = {
-        f"{name}_error": math.hypot(getattr(found, f"{name}_error"), getattr(found, name) - getattr(other, name))
-        for name in names
-    }
-    return replace(found, **errors)
-
-
-@dataclass(frozen=True)
-class _Fit:
-    centre: Centre
-    last: float
-    last_error: float
-
-
-def _fit(time: Real, values: Real, order: int, longer: float) -> _Fit:
-    """Return a polynomial in the middle of its samples, and its last coefficient with its standard error."""
     middle, half = 0.5 * (time[0] + time[-1]), 0.5 * (time[-1] - time[0])
-    powers = np.vander((time - middle) / half, order + 1, increasing=True)
-    orthogonal, triangle = np.linalg.qr(powers)
     reach = float(np.abs(values).max()) or 1.0  # squares of tiny readings must not underflow
-    inverse = np.linalg.inv(triangle)
-    found = inverse @ (orthogonal.T @ (values / reach))
-    rest = values / reach - powers @ found
+    # Legendre's polynomials are almost orthogonal on the samples already, so that the columns keep their digits.
+    columns, triangle = np.linalg.qr(np.polynomial.legendre.legvander((time - middle) / half, max(order, most, 1)))
+    found = columns.T @ (values / reach)
+    values = values / reach
+    rest = _about(values - columns[:, : order + 1] @ found[: order + 1], order, longer)
+    for higher in range(order + 1, most + 1):
+        left = values - columns[:, : higher + 1] @ found[: higher + 1]
+        freedom = max(left.size / longer - higher - 1.0, 1.0)
+        if abs(found[higher]) <= _CLEAR * math.sqrt(float(left @ left) / freedom):
+            continue  # not clear even if no sample were more correlated than is known
+        other = _about(left, higher, longer)
+        if abs(found[higher]) > _CLEAR * math.sqrt(other.variance):
+            rest = other
+    return Noise(
+        variance=reach**2 * rest.variance,
+        effective=rest.effective,
+        freedom=rest.freedom,
+        slope=reach * float(found[1] / triangle[1, 1]) / half,
+        slope_error=reach * math.sqrt(rest.variance) / abs(float(triangle[1, 1])) / half,
+    )
+
+
+def _about(rest: Real, order: int, longer: float) -> Noise:
+    """Return the noise that is left beside a polynomial; without slopes."""
     effective = rest.size / max(correlation_length(rest), longer)
     freedom = max(effective - order - 1.0, 1.0)
-    variance = float(rest @ rest) / freedom  # of the mean of as many samples as there are
-    errors = np.sqrt(variance * np.sum(inverse**2, axis=1))
-    # Of the polynomial in (t - middle) / half, the first three coefficients give value, slope and curvature.
-    kept = min(order + 1, 3)
-    scale = reach * np.array([1.0, 1.0 / half, 2.0 / half**2])[:kept]
-    value, error = np.zeros(3), np.zeros(3)
-    value[:kept], error[:kept] = found[:kept] * scale, errors[:kept] * scale
-    names = ("value", "slope", "curvature")
-    told = dict(zip(names, value.tolist(), strict=True))
-    told |= {f"{name}_error": one for name, one in zip(names, error.tolist(), strict=True)}
-    return _Fit(Centre(effective=effective, freedom=freedom, **told), float(found[-1]), float(errors[-1]))
+    return Noise(float(rest @ rest) / freedom, effective, freedom, 0.0, 0.0)
 
 
 def correlation_length(residuals: Real) -> float:
@@ -123,8 +186,9 @@ def correlation_length(residuals: Real) -> float:
     largest = float(np.abs(residuals).max())
     if largest == 0.0:
         return 1.0
-    spectrum = np.fft.rfft(residuals / largest, 2 * count)
-    covariance = np.fft.irfft(spectrum * spectrum.conj())[:count]
+    padded = next_fast_len(2 * count, real=True)
+    spectrum = rfft(residuals / largest, padded)
+    covariance = irfft(spectrum * spectrum.conj(), padded)[:count]
     pairs = covariance[: count // 2 * 2].reshape(-1, 2).sum(axis=1)
     ends = np.flatnonzero(pairs <= 0.0)
     positive = pairs[: ends[0]] if ends.size else pairs

@@ -36,7 +36,12 @@ class Column:
 
 
 def recognise(
-    path: str, headings: Sequence[str], units: Sequence[str], named: Mapping[str, str], given: Mapping[str, str]
+    path: str,
+    headings: Sequence[str],
+    units: Sequence[str],
+    named: Mapping[str, str],
+    given: Mapping[str, str],
+    clocks: Sequence[int] = (),
 ) -> dict[str, Column]:
     """Return the columns of time, normal force, traction and displacement.
 
@@ -53,6 +58,9 @@ def recognise(
     given : mapping
         Quantity to unit, where the user gives it.
 
+    clocks : sequence of int
+        Columns of clock times, which are in s whatever the heading says.
+
     Raises
     ------
     InvalidInput
@@ -62,6 +70,9 @@ def recognise(
     found = {}
     for quantity in QUANTITIES:
         place = _place(path, quantity, headings, [name for name, _ in split], named.get(quantity))
+        if place in clocks:
+            found[quantity] = _clock(path, quantity, headings[place], place, given.get(quantity, "s"))
+            continue
         unit = given.get(quantity) or units[place] or split[place][1]
         if not unit:
             raise InvalidInput(
@@ -79,6 +90,16 @@ def recognise(
                 f"{path} has one column, {headings[column.place]!r}, for {quantity} and another quantity"
             )
     return found
+
+
+def _clock(path: str, quantity: str, heading: str, place: int, unit: str) -> Column:
+    if quantity != "time":
+        raise InvalidInput(f"{path} has clock times in the column {heading!r}, but it is to hold {quantity}")
+    if factor("time", unit) != 1.0:
+        raise InvalidInput(
+            f"units.time is {unit!r}, but {path} has clock times in the column {heading!r}: leave it out"
+        )
+    return Column(place, 1.0)
 
 
 def _place(path: str, quantity: str, headings: Sequence[str], names: Sequence[str], named: str | None) -> int:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.rig.bearing import Drag
-from rubfric.rig.estimate import centre, halfwidth
+from rubfric.rig.estimate import halfwidth, mean, noise_of, weights
 from rubfric.rig.record import Record
 from rubfric.rig.settings import Settings, Windows
 from rubfric.rig.tare import Zero
@@ -16,10 +16,14 @@ from rubfric.rig.windows import STEADY, Window
 
 # Independent samples that an interval of confidence needs, and windows below this part of the run's load.
 _FEWEST_EFFECTIVE, _UNLOADED = 10.0, 0.1
+# Part of the independent samples expected that a window may lack by chance.
+_CONSISTENT = 0.5
+# Mean friction differs from friction at the mean speed by half its second derivative over ln(speed), times the variance
+# of ln(speed): (change of ln(speed) / 2)² / 7 under the weight. Of a Maxwell element's friction, ~ 1 / cosh(ln(speed)),
+# that derivative is no larger than friction itself; nor is it, at a given contact, of a sum of elements and scales.
+_SPREAD = 0.5 / 4.0 / 7.0
 # No rubber's friction coefficient on a road is larger.
 _LARGEST = 5.0
-# Order to which the polynomials in a window may be raised.
-_HIGHEST = 5
 
 
 @dataclass(frozen=True)
@@ -84,10 +88,9 @@ class Rejected:
 def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> Point | Rejected:
     """Return the point of a window, or the first reason against it.
 
-    All values are those of local polynomials in the middle of the window, so that neither a slow change of speed nor
-    what friction makes of it shifts them: straight lines in a window of steady speed, parabolas in a piece of a sweep,
-    and one order more for displacement. Friction is the ratio of the forces, and its variance that of
-    traction - mu normal force, so that what both sensors share does not count twice.
+    All values are means of one weight, as ``rubfric.rig.estimate`` tells, so that friction belongs to the speed that is
+    given with it, however the speed changes within the window. Friction is the ratio of the mean forces, and its
+    variance that of traction - mu normal force, so that what both sensors share does not count twice.
 
     A sensor at the rubber reads the rubber's friction. One in the rope also reads what accelerates the sled and what
     its bearings take, which is subtracted.
@@ -98,42 +101,49 @@ def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> 
     reason = _unfit(loaded, window, settings.windows)
     if reason:
         return _rejected(loaded, window, abs(speed), float(pressing.mean()) / settings.area, reason)
-    order, longer = 1 if window.kind == STEADY else 2, loaded.zero.longer
-    motion, normal = centre(time, place, order + 1, _HIGHEST), centre(time, pressing, order, _HIGHEST, longer)
-    way = float(np.sign(speed))
-    pulling = way * loaded.traction[part]
-    traction = centre(time, pulling, order, _HIGHEST, longer)
-    friction, besides, errors = traction.value, 0.0, []
+    weight, longer, way = weights(time), loaded.zero.longer, float(np.sign(speed))
+    along, pulling = way * (place - place[0]), way * loaded.traction[part]
+    shaking, pushing = noise_of(time, along, 1), noise_of(time, pressing, 0, longer=longer)
+    motion, acceleration = mean(along, weight.rate, shaking), mean(along, weight.bend, shaking)
+    normal, traction = mean(pressing, weight.mean, pushing), float(weight.mean @ pulling)
+    friction, besides, errors = traction, 0.0, []
     if settings.traction == "rope":
-        friction -= 1e-3 * settings.sled_mass * way * motion.curvature + drag(abs(motion.slope), normal.value)
-        errors = [1e-3 * settings.sled_mass * motion.curvature_error, drag.error]
+        friction -= 1e-3 * settings.sled_mass * acceleration.value + drag(motion.value, normal.value)
+        errors = [1e-3 * settings.sled_mass * acceleration.error, drag.error_at(motion.value)]
         besides = drag.coefficient
     ratio = friction / normal.value
-    rest = centre(time, pulling - (ratio + besides) * pressing, order, _HIGHEST, longer)
+    left = pulling - (ratio + besides) * pressing
+    trend = noise_of(time, left, 0, longer=longer)
     tared, pulled = (float(part_of[part].mean()) for part_of in (loaded.zero.normal_error, loaded.zero.traction_error))
-    errors += [rest.value_error, pulled, (ratio + besides) * tared]
-    gains = [settings.calibration.get(name, 0.0) for name in ("normal", "traction")]
-    pressed = halfwidth(float(np.hypot(normal.value_error, tared)), normal.freedom)
-    resisted = halfwidth(float(np.linalg.norm(errors)), rest.freedom)
+    errors += [mean(left, weight.mean, trend).error, pulled, (ratio + besides) * tared]
+    length = time[-1] - time[0]
+    gains = {name: settings.calibration.get(name, 0.0) for name in ("normal", "traction", "displacement")}
+    doubts = [
+        halfwidth(float(np.linalg.norm(errors)), trend.freedom) / normal.value,
+        # A sensor in the rope has the gain of all that it reads, not of the rubber's part alone.
+        gains["normal"] * (ratio + besides),
+        gains["traction"] * traction / normal.value,
+        ratio * _SPREAD * (acceleration.value * length / motion.value) ** 2,
+    ]
+    pressed = halfwidth(float(np.hypot(normal.error, tared)), normal.freedom)
     point = Point(
         kind=window.kind,
         start=float(time[0]),
         end=float(time[-1]),
         samples=time.size,
-        effective_samples=rest.effective,
-        travel=float(abs(place[-1] - place[0])),
-        acceleration=way * motion.curvature,
-        speed=abs(motion.slope),
-        speed_ci95=halfwidth(motion.slope_error, motion.freedom),
+        effective_samples=trend.effective,
+        travel=float(along[-1]),
+        acceleration=acceleration.value,
+        speed=motion.value,
+        speed_ci95=float(np.hypot(halfwidth(motion.error, motion.freedom), gains["displacement"] * motion.value)),
         pressure=normal.value / settings.area,
-        pressure_ci95=float(np.hypot(pressed, gains[0] * normal.value)) / settings.area,
+        pressure_ci95=float(np.hypot(pressed, gains["normal"] * normal.value)) / settings.area,
         friction_coefficient=ratio,
-        friction_coefficient_ci95=float(np.hypot(resisted / normal.value, ratio * float(np.linalg.norm(gains)))),
+        friction_coefficient_ci95=float(np.linalg.norm(doubts)),
     )
-    length = time[-1] - time[0]
-    changes = (abs(normal.slope) * length / normal.value, abs(rest.slope) * length / max(abs(friction), 1e-30))
-    clear = abs(rest.slope) > 3.0 * rest.slope_error
-    reason = _doubt(point, changes, clear, settings.windows)
+    changes = (abs(pushing.slope) * length / normal.value, abs(trend.slope) * length / max(abs(friction), 1e-30))
+    clear = abs(trend.slope) > 3.0 * trend.slope_error
+    reason = _doubt(point, _independent(point, longer), changes, clear, settings.windows)
     return _rejected(loaded, window, point.speed, point.pressure, reason) if reason else point
 
 
@@ -157,12 +167,22 @@ def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
     return ""
 
 
-def _doubt(point: Point, changes: tuple[float, float], clear: bool, limits: Windows) -> str:
+def _independent(point: Point, longer: float) -> float:
+    """Return the number of independent samples by which a window is judged.
+
+    That of the unloaded sensors' noise, unless the window's own is far smaller. A short window's own number is noise
+    itself: to judge by it would keep those windows whose errors are thought too small.
+    """
+    known = point.samples / longer
+    return known if point.effective_samples > _CONSISTENT * known else point.effective_samples
+
+
+def _doubt(point: Point, independent: float, changes: tuple[float, float], clear: bool, limits: Windows) -> str:
     """Return why what was found in a window is not trusted, or nothing."""
     friction, doubt = point.friction_coefficient, point.friction_coefficient_ci95
-    if point.effective_samples < _FEWEST_EFFECTIVE:
+    if independent < _FEWEST_EFFECTIVE:
         return (
-            f"its {point.samples} samples are so correlated that they count for {point.effective_samples:.1f} "
+            f"its {point.samples} samples are so correlated that they count for {independent:.1f} "
             f"independent ones, fewer than {_FEWEST_EFFECTIVE:g}"
         )
     if changes[0] > limits.load_range:

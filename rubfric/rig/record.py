@@ -78,7 +78,7 @@ def read_record(path: str, settings: Settings) -> Record:
         For a missing file.
     """
     table = read_text(path, settings.separator, settings.decimal)
-    columns = recognise(path, table.headings, table.units, settings.columns, settings.units)
+    columns = recognise(path, table.headings, table.units, settings.columns, settings.units, table.clocks)
     values = np.stack([table.values[:, columns[name].place] * columns[name].factor for name in QUANTITIES])
     source = SIMULATED if any(SIMULATED_MARK in line for line in table.preamble) else MEASURED
     return ordered(path, source, values, table.notes)

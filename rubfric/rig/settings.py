@@ -89,7 +89,7 @@ class Settings:
     range : mapping
         Force (normal, traction) to the reading, N, at which its sensor clips.
     calibration : mapping
-        Force to the uncertainty of its calibration, relative, 95 %.
+        Force, or displacement, to the uncertainty of its sensor's gain, relative, 95 %.
     windows : Windows
     separator, decimal : str, optional
         As in ``rubfric.rig.textfile.read_text``.
@@ -195,6 +195,12 @@ def _forces(key: str, value: Any) -> dict[str, float]:
     return {name: checks.at_least(f"{key}.{name}", number, 0.0) for name, number in value.items()}
 
 
+def _gains(key: str, value: Any) -> dict[str, float]:
+    checks.known_keys(key, value, (*_FORCES, "displacement"))
+    at = {name: f"{key}.{name}" for name in value}
+    return {name: checks.at_most(at[name], checks.at_least(at[name], value[name], 0.0), 1.0) for name in value}
+
+
 def _windows(key: str, value: Any) -> Windows:
     checks.known_keys(key, value, [one.name for one in fields(Windows)])
     read: dict[str, Any] = {}
@@ -218,7 +224,7 @@ _READERS: dict[str, Any] = {
     "tare": _tare,
     "bearing": _bearing,
     "range": _forces,
-    "calibration": _forces,
+    "calibration": _gains,
     "windows": _windows,
     "separator": lambda key, value: checks.one_of(key, value, SEPARATORS),
     "decimal": lambda key, value: checks.one_of(key, value, DECIMALS),

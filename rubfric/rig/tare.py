@@ -8,7 +8,7 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.errors import InvalidInput
-from rubfric.rig.estimate import centre
+from rubfric.rig.estimate import plain_mean
 from rubfric.rig.record import Record
 from rubfric.rig.settings import Tare
 
@@ -117,16 +117,16 @@ def _line(time: Real, force: Real, stretches: list[Flags]) -> tuple[Real, Real, 
 
     Also how many samples are worth an independent one.
     """
-    means = [centre(time[part], force[part], 0) for part in stretches]
+    means = [plain_mean(time[part], force[part]) for part in stretches]
     longer = float(
         np.mean([np.count_nonzero(part) / one.effective for part, one in zip(stretches, means, strict=True)])
     )
     if len(means) == 1:
-        return np.full(force.size, means[0].value), np.full(force.size, means[0].value_error), longer
+        return np.full(force.size, means[0].value), np.full(force.size, means[0].error), longer
     first, last = (float(time[part].mean()) for part in stretches)
     share = (time - first) / (last - first)
     line = (1.0 - share) * means[0].value + share * means[1].value
-    return line, np.hypot((1.0 - share) * means[0].value_error, share * means[1].value_error), longer
+    return line, np.hypot((1.0 - share) * means[0].error, share * means[1].error), longer
 
 
 def _described(normal: Real, traction: Real, stretches: int) -> str:

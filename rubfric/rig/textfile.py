@@ -14,6 +14,7 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.errors import InvalidInput
+from rubfric.rig.clock import clock_times, looks_like_clock
 from rubfric.rig.units import is_unit
 
 SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "space": None}
@@ -21,6 +22,8 @@ DECIMALS = {"point": ".", "comma": ","}
 # Lines that may stand before the headings, and rows that have to look like numbers below them.
 _LONGEST_PREAMBLE, _ROWS_TO_LOOK_AT = 300, 3
 _FEWEST_COLUMNS = 4
+# Lines below the headings that are enough to know them: a line of units, and the rows to look at with empty ones.
+_LOOKED_AT = 2 + 2 * _ROWS_TO_LOOK_AT
 # Share of rows that may be unreadable.
 _MOST_UNREADABLE = 0.05
 _MISSING = {"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?", "inf", "-inf", "+inf"}
@@ -42,6 +45,8 @@ class TextTable:
         NaN where a value is missing, infinite where the logger wrote that its input was overloaded.
     notes : tuple of str
         What was passed over.
+    clocks : tuple of int
+        Columns that held times as a clock shows them; they are in s.
     """
 
     preamble: tuple[str, ...]
@@ -49,6 +54,7 @@ class TextTable:
     units: tuple[str, ...]
     values: Real
     notes: tuple[str, ...]
+    clocks: tuple[int, ...] = ()
 
 
 def read_text(path: str, separator: str | None = None, decimal: str | None = None) -> TextTable:
@@ -72,9 +78,9 @@ def read_text(path: str, separator: str | None = None, decimal: str | None = Non
     lines = _decoded(path).splitlines()
     kinds = [separator] if separator else list(SEPARATORS)
     for kind in kinds:
-        rows = _split(lines, SEPARATORS[kind])
-        start = _headings(rows)
+        start = _headings(_split(lines[: _LONGEST_PREAMBLE + _LOOKED_AT], SEPARATORS[kind]))
         if start is not None:
+            rows = _split(lines, SEPARATORS[kind])
             break
     else:
         raise InvalidInput(
@@ -86,8 +92,8 @@ def read_text(path: str, separator: str | None = None, decimal: str | None = Non
     units = tuple("" for _ in headings)
     if _is_units(rows[below], len(headings)):
         units, below = tuple(word.strip().strip("[](){} ") for word in rows[below]), below + 1
-    values, notes = _numbers(path, rows[below:], len(headings), decimal, below)
-    return TextTable(tuple(lines[:start]), headings, units, values, notes)
+    values, notes, clocks = _numbers(path, rows[below:], headings, decimal, below)
+    return TextTable(tuple(lines[:start]), headings, units, values, notes, clocks)
 
 
 def _decoded(path: str) -> str:
@@ -140,18 +146,26 @@ def _looks_numeric(word: str) -> bool:
 
 
 def _numbers(
-    path: str, rows: Sequence[Sequence[str]], count: int, decimal: str | None, before: int
-) -> tuple[Real, tuple[str, ...]]:
-    """Return the values of all rows, and notes on rows that were passed over."""
+    path: str, rows: Sequence[Sequence[str]], headings: Sequence[str], decimal: str | None, before: int
+) -> tuple[Real, tuple[str, ...], tuple[int, ...]]:
+    """Return the values of all rows, notes on rows that were passed over, and which columns are clocks."""
     filled = [(line, row) for line, row in enumerate(rows, before + 1) if any(word.strip() for word in row)]
     mark = DECIMALS[decimal] if decimal else _decimal(path, [word for _, row in filled for word in row])
-    values, bad = [], []
-    for line, row in filled:
-        numbers = [_number(word, mark) for word in row] if len(row) == count else [None]
-        if None in numbers:
-            bad.append((line, row))
-        else:
-            values.append(numbers)
+    count = len(headings)
+    whole = [row for _, row in filled if len(row) == count]
+    table = [[_number(word, mark) for word in row] for row in whole]
+    # A column without a single number holds words, such as dates or states, or the times of a clock.
+    wordy = [place for place in range(count) if all(row[place] is None for row in table)]
+    clocks = [place for place in wordy if sum(looks_like_clock(row[place]) for row in whole) > len(whole) // 2]
+    for place in wordy:
+        times = None
+        if place in clocks:
+            times = clock_times(f"{path}, column {headings[place]!r},", [row[place] for row in whole])
+        for number, values_of in enumerate(table):
+            values_of[place] = math.nan if times is None else float(times[number])
+    found = iter(table)
+    read = [(line, row, next(found) if len(row) == count else [None]) for line, row in filled]
+    bad = [(line, row) for line, row, numbers in read if None in numbers]
     if len(bad) > _MOST_UNREADABLE * len(filled) + 1:
         line, row = bad[0]
         shown = "; ".join(row)[:60]
@@ -159,16 +173,17 @@ def _numbers(
             f"{path} has {len(bad)} unreadable rows of {len(filled)}, the first of them line {line}: {shown!r}"
         )
     notes = (f"{len(bad)} unreadable rows left out, the first of them line {bad[0][0]}",) if bad else ()
-    return np.array(values, dtype=np.float64).reshape(-1, count), notes
+    values = np.array([numbers for _, _, numbers in read if None not in numbers], dtype=np.float64)
+    return values.reshape(-1, count), notes, tuple(clocks)
 
 
 def _decimal(path: str, words: Sequence[str]) -> str:
     """Return the decimal mark: a comma where numbers have commas, unless those may part thousands."""
-    numbers = [word.strip() for word in words if _looks_numeric(word)]
-    commas = [word for word in numbers if "," in word]
+    commas = [word.strip() for word in words if "," in word and _looks_numeric(word)]
     if not commas:
         return "."
-    if any("." in word for word in numbers) or any(word.count(",") > 1 for word in commas):
+    points = any("." in word and _looks_numeric(word) for word in words)
+    if points or any(word.count(",") > 1 for word in commas):
         raise InvalidInput(
             f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
             "thousands, or say in the YAML file of --columns which one is the decimal"
@@ -184,10 +199,14 @@ def _decimal(path: str, words: Sequence[str]) -> str:
 def _number(word: str, mark: str) -> float | None:
     """Return a number, NaN for a missing one, infinity for an overloaded input, or None for anything else."""
     plain = word.strip()
-    if plain.casefold() in _MISSING:
-        return math.nan
-    if plain.casefold() in _OVERLOADED:
-        return math.inf
+    if not _NUMBER.match(plain):
+        folded = plain.casefold()
+        return math.nan if folded in _MISSING else math.inf if folded in _OVERLOADED else None
     # The other mark parts thousands, where the user has said so.
-    plain = plain.replace(".", "").replace(",", ".") if mark == "," else plain.replace(",", "")
-    return float(plain) if _NUMBER.match(plain) and plain.count(".") <= 1 else None
+    other = "." if mark == "," else ","
+    if other in plain:
+        plain = plain.replace(other, "")
+    try:
+        return float(plain.replace(mark, "."))
+    except ValueError:  # a mark that stands twice
+        return None

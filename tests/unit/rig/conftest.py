@@ -70,8 +70,8 @@ def write_file(tmp_path: Path) -> FileWriter:
         encoding: str = "utf-8",
         name: str = "run.csv",
     ) -> str:
-        rows = [separator.join(repr(float(value)).replace(".", decimal) for value in row) for row in readings.T]
-        text = before + separator.join(headings) + "\n" + "\n".join(rows) + "\n" + after
+        rows = "\n".join(separator.join(map(repr, row)) for row in readings.T.tolist()).replace(".", decimal)
+        text = f"{before}{separator.join(headings)}\n{rows}\n{after}"
         path = tmp_path / name
         path.write_bytes(text.encode(encoding))
         return str(path)

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
-from rubfric.rig.reduction import Reduced, point_table, reduce_files
+from rubfric.rig.bearing import given_drag
+from rubfric.rig.record import MEASURED, ordered
+from rubfric.rig.reduction import Reduced, point_table, reduce_files, reduce_record
 from rubfric.rig.settings import Settings
 
 FileWriter = Callable[..., str]
@@ -28,9 +30,10 @@ def numbers(found: Reduced) -> np.ndarray:
     return table.select_dtypes("number").to_numpy(dtype=float)
 
 
-@pytest.fixture
-def tidy(write_file: FileWriter, readings: np.ndarray, settings: Settings) -> np.ndarray:
-    found = numbers(reduced(write_file(readings, name="tidy.csv"), settings))
+@pytest.fixture(scope="module")
+def tidy(readings: np.ndarray, settings: Settings) -> np.ndarray:
+    """What the readings give without a file."""
+    found = numbers(reduce_record(ordered("tidy", MEASURED, readings), settings, given_drag(settings.bearing)))
     assert len(found) == 1
     return found
 
@@ -42,6 +45,7 @@ def same(found: Reduced, tidy: np.ndarray, tolerance: float = 1e-9) -> None:
 @pytest.mark.parametrize(
     "how",
     [
+        {},
         {"separator": ";", "decimal": ",", "headings": GERMAN},
         {"separator": "\t", "decimal": ","},
         {"separator": "\t"},
@@ -57,7 +61,7 @@ def same(found: Reduced, tidy: np.ndarray, tolerance: float = 1e-9) -> None:
         {"headings": ("Time / s", "Normal load in N", "Traction load, N".replace(",", " /"), "Position (mm)")},
         {"after": "End of measurement\n"},
     ],
-    ids=lambda how: " ".join(how),
+    ids=lambda how: " ".join(how) or "tidy",
 )
 def test_writing_does_not_matter(
     how: dict[str, str], write_file: FileWriter, readings: np.ndarray, settings: Settings, tidy: np.ndarray
@@ -69,6 +73,60 @@ def test_writing_does_not_matter(
         text = Path(path).read_text()
         Path(path).write_text(text.replace("t,Fn,Ft,x\n", f"t,Fn,Ft,x\n{units}\n"))
     same(reduced(path, settings), tidy)
+
+
+CLOCKS = {
+    "time": lambda s: f"{int(s // 3600) % 24:02d}:{int(s // 60) % 60:02d}:{s % 60:012.9f}",
+    "time (s)": lambda s: f"{int(s // 3600) % 24}:{int(s // 60) % 60:02d}:{s % 60:012.9f}",
+    "Time (hh:mm:ss)": lambda s: (
+        f"{(int(s // 3600) + 11) % 12 + 1}:{int(s // 60) % 60:02d}:{s % 60:012.9f} {'AP'[int(s // 43200) % 2]}M"
+    ),
+    "timestamp": lambda s: f"2026-02-{28 + int(s // 86400)}T{CLOCKS['time'](s)}".replace("02-29", "03-01"),
+}
+
+
+@pytest.mark.parametrize("heading", CLOCKS)
+@pytest.mark.parametrize("start", [100.0, 86398.0], ids=["by day", "over midnight"])
+def test_clock_times_are_seconds(
+    heading: str, start: float, write_file: FileWriter, readings: np.ndarray, settings: Settings, tidy: np.ndarray
+) -> None:
+    lines = Path(write_file(readings, (heading, "Fn (N)", "Ft (N)", "x (mm)"))).read_text().splitlines()
+    for number, line in enumerate(lines[1:], 1):
+        time, _, others = line.partition(",")
+        lines[number] = f"{CLOCKS[heading](start + float(time))},{others}"
+    path = Path(write_file(readings))
+    path.write_text("\n".join(lines))
+    expected = tidy.copy()
+    expected[:, :2] += start
+    np.testing.assert_allclose(numbers(reduced(str(path), settings)), expected, rtol=1e-5, atol=1e-6)
+
+
+def test_units_that_contradict_a_clock_and_clocks_that_are_no_time_are_refused(
+    write_file: FileWriter, readings: np.ndarray, settings: Settings
+) -> None:
+    lines = Path(write_file(readings, ("t", "Fn (N)", "Ft (N)", "x (mm)"))).read_text().splitlines()
+    stamped = [
+        lines[0],
+        *(f"12:00:{number / 100.0:08.5f},{line.partition(',')[2]}" for number, line in enumerate(lines[1:])),
+    ]
+    path = Path(write_file(readings))
+    path.write_text("\n".join(stamped))
+    with pytest.raises(InvalidInput, match=r"^units.time is 'ms', but .* has clock times in the column 't': leave it"):
+        reduced(str(path), replace(settings, units={"time": "ms"}))
+    with pytest.raises(InvalidInput, match=r"has clock times in the column 't', but it is to hold displacement"):
+        reduced(str(path), replace(settings, columns={"displacement": "t", "time": "x"}, units={"time": "s"}))
+    path.write_text("\n".join([lines[0], *(line.replace("12:", "", 1) for line in stamped[1:])]))
+    with pytest.raises(InvalidInput, match=r"column 't', holds the time '00:00.00000', which may be read in more than"):
+        reduced(str(path), settings)
+
+
+def test_columns_of_words_are_passed_over(
+    write_file: FileWriter, readings: np.ndarray, settings: Settings, tidy: np.ndarray
+) -> None:
+    lines = Path(write_file(readings)).read_text().splitlines()
+    path = Path(write_file(readings))
+    path.write_text("\n".join([f"Date,{lines[0]},State", *(f"2026-11-22,{line},sliding" for line in lines[1:])]))
+    same(reduced(str(path), settings), tidy)
 
 
 @pytest.mark.parametrize(

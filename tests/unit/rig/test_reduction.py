@@ -10,10 +10,13 @@ import pytest
 from rubfric.errors import InvalidInput
 from rubfric.frictionmap import FrictionMap
 from rubfric.rig.bearing import Drag
+from rubfric.rig.points import Point, _independent
 from rubfric.rig.reduction import Reduced, point_table, reduce_record, rejected_table
 from rubfric.rig.sensors import Ideal, Sensors, as_record, recorded
 from rubfric.rig.settings import Settings, Tare, Windows
+from rubfric.rig.sled import Sled
 from rubfric.rig.summary import summary
+from rubfric.rig.virtual import Run, make
 
 NO_DRAG = Drag(0.0, 0.0, 0.0, 0.0)
 
@@ -44,6 +47,18 @@ def test_calibration_widens_the_intervals(readings: np.ndarray, settings: Settin
         np.hypot(exact.friction_coefficient_ci95, 0.05 * exact.friction_coefficient)
     )
     assert rough.pressure_ci95 == pytest.approx(np.hypot(exact.pressure_ci95, 0.03 * exact.pressure))
+
+
+def test_gain_of_a_sensor_in_the_rope_counts_with_all_that_it_reads(readings: np.ndarray, settings: Settings) -> None:
+    rope, drag = replace(settings, traction="rope", sled_mass=5.0), Drag(0.0, 0.0, 0.3, 0.0)
+    (exact,) = reduce_record(as_record("run", readings), rope, drag).points
+    rough = replace(rope, calibration={"normal": 0.03, "traction": 0.04, "displacement": 0.02})
+    (found,) = reduce_record(as_record("run", readings), rough, drag).points
+    read = exact.friction_coefficient + 0.3  # but for what little accelerates the sled
+    assert found.friction_coefficient_ci95 == pytest.approx(
+        np.hypot(exact.friction_coefficient_ci95, 0.05 * read), rel=1e-3
+    )
+    assert found.speed_ci95 == pytest.approx(np.hypot(exact.speed_ci95, 0.02 * exact.speed))
 
 
 def test_area_scales_the_pressure_alone(readings: np.ndarray, settings: Settings) -> None:
@@ -127,3 +142,22 @@ def test_quiet_sensors_do_not_matter(steady: Ideal, settings: Settings, friction
     assert len(found.points) + len(found.rejected) >= 1
     for point in found.points:
         assert point.friction_coefficient == pytest.approx(float(friction.at(1.0)(point.speed)), rel=1e-4)
+
+
+def test_quiet_sensors_know_that_friction_bends_over_a_sweep(friction: FrictionMap, sled: Sled) -> None:
+    silent = Sensors(2000.0, 1e-4, 0.0, 1e-4, 0.0, 0.0, 0.0, 0.0)
+    run = make(Run(1.0, 9.0, 100.0, False), friction, sled, silent)
+    settings = Settings(area=100.0, windows=Windows(sweep_range=0.5, load_range=0.05))
+    points = reduce_record(as_record("run", recorded(run, silent, np.random.default_rng(0))), settings, NO_DRAG).points
+    away = [point.friction_coefficient - float(friction.at(1.0)(point.speed)) for point in points]
+    assert len(points) > 2
+    assert max(map(abs, away)) > 1e-4  # noise alone would move them by 1e-7
+    assert all(abs(one) < point.friction_coefficient_ci95 for one, point in zip(away, points, strict=True))
+    assert all(point.friction_coefficient_ci95 < 0.02 * point.friction_coefficient for point in points)
+
+
+def test_correlation_of_a_short_window_is_that_of_the_unloaded_sensors() -> None:
+    point = Point("sweep", 0.0, 1.0, 300, 12.0, 1.0, 0.0, 1.0, 0.1, 1.0, 0.1, 0.5, 0.01)
+    assert _independent(point, 20.0) == 15.0
+    assert _independent(replace(point, effective_samples=8.0), 20.0) == 15.0
+    assert _independent(replace(point, effective_samples=7.0), 20.0) == 7.0

@@ -132,7 +132,11 @@ def test_unloaded_pull_gives_the_drag_of_the_bearings(damping: float) -> None:
         assert found(speed, 0.0) == pytest.approx(1.5 + damping * speed, abs=max(3.0 * found.error, 0.02))
     assert found(100.0, 50.0) == pytest.approx(found(100.0, 0.0) + 0.5)
     assert 0.0 < found.error < 0.1
-    assert "from pull.csv" in found.notes[0]
+    assert "from pull.csv at" in found.notes[0]
+    assert found.error_at(found.middle) == found.error
+    far = found(3000.0, 0.0) - 1.5 - 3000.0 * damping
+    assert abs(far) < 3.0 * found.error_at(3000.0)
+    assert found.error_at(3000.0) > 2.0 * found.error
 
 
 def test_pull_without_sliding_is_refused(rng: np.random.Generator) -> None:

@@ -18,7 +18,7 @@ sled_mass: 5
 tare: {from: 0, to: 1.5}
 bearing: {file: pull.csv, coefficient: 0.004}
 range: {normal: 500}
-calibration: {normal: 0.005, traction: 0.01}
+calibration: {normal: 0.005, traction: 0, displacement: 0.001}
 windows: {least_travel: 2, least_samples: 40}
 decimal: comma
 separator: semicolon
@@ -37,6 +37,7 @@ def test_file_is_read_whole(tmp_path: Path) -> None:
     assert found.tare == Tare("times", 0.0, 1.5)
     assert found.bearing == Bearing(coefficient=0.004, file=str(tmp_path / "pull.csv"))
     assert found.windows == Windows(least_travel=2.0, least_samples=40)
+    assert found.calibration == {"normal": 0.005, "traction": 0.0, "displacement": 0.001}
     assert (found.area, found.traction, found.sled_mass, found.decimal) == (100.0, "rope", 5.0, "comma")
 
 
@@ -65,6 +66,8 @@ def test_options_lie_above_the_file(tmp_path: Path) -> None:
         ("units: {normal: V}", "units.normal is 'V', but must be one of N, kN"),
         ("windows: {least_samples: 5}", "windows.least_samples is 5, but must be a whole number of at least 20"),
         ("windows: {drift: 2}", "windows.drift is 2, but must lie between 0 and 1, both excluded"),
+        ("calibration: {normal: 5}", "calibration.normal is 5, but must be at most 1"),
+        ("range: {displacement: 5}", "range has the unknown key 'displacement'; allowed are normal, traction"),
         ("- 1", r"is \[1\], but must hold the keys columns, units, area"),
         ("a: [", "is not valid YAML: "),
     ],
