@@ -38,4 +38,4 @@ def rig_files(rig: RigChoice) -> list[str]:
 def _check(named: dict[str, str]) -> None:
     for key, path in named.items():
         if not os.path.isfile(path):
-            raise InvalidInput(f"{key} is {checks.shown(path)}, but there is no such file")
+            raise InvalidInput(f"{key} is {path!r}, but there is no such file")

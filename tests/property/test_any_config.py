@@ -49,9 +49,10 @@ NO_MAPPINGS = (None, 5, "text", [], [1, 2])
 NO_FOLDERS = (None, True, 5, float("nan"), "", " ", "a\nb", "{x}", "\ud800", "\0", [], ["results"], {}, "x" * 5000)
 # No quantity and no count is so large.
 HUGE = (1e31, 1e300, 10**31)
-EMPTY_ALLOWED = ("shear_fractions", "relaxation_times", "data")
+EMPTY_ALLOWED = ("shear_fractions", "relaxation_times", "data", "compare")
 OPTIONAL = ("moduli", "bulk", "density")
-CATALOGUES = (("rubbers",), ("roads",), ("presets",))
+READINGS = ("claims", "readings")
+CATALOGUES = (("rubbers",), ("roads",), ("presets",), READINGS)
 
 
 def ways(tree: Any, way: Way = ()) -> Iterator[Way]:
@@ -199,13 +200,22 @@ def test_any_key_taken_away_is_missed_by_name(config: Config) -> None:
             continue
         without = copy.deepcopy(config)
         del at(without, way[:-1])[way[-1]]
-        catalogue = len(way) == 2 and way[:1] in CATALOGUES
-        chosen = config["numerics"]["preset"] if way[0] == "presets" else config.get(str(way[0])[:-1])
-        in_use = catalogue and chosen == way[1]
-        if (catalogue and not in_use) or (way[0] == "rubbers" and way[-1] in OPTIONAL and len(way) == 3):
+        spare = way[:-1] in CATALOGUES and way[-1] not in in_use(config, way[:-1])
+        optional = (way[0] == "rubbers" and way[-1] in OPTIONAL and len(way) == 3) or way[:-2] == READINGS
+        if spare or optional:
             Campaign.from_config(without)
         else:
-            assert str(way[0] if catalogue else way[-1]).removesuffix("s" * catalogue) in refusal(without)
+            entry = way[:-1] in CATALOGUES and way[:-1] != READINGS
+            assert (str(way[0]).removesuffix("s") if entry else way[-1]) in refusal(without)
+
+
+def in_use(config: Config, catalogue: Way) -> list[str]:
+    """Return the names of the entries of a catalogue that the config uses."""
+    if catalogue == READINGS:
+        return list(config["claims"]["compare"])
+    if catalogue == ("presets",):
+        return [config["numerics"]["preset"], config["claims"]["preset"]]
+    return [config[str(catalogue[0])[:-1]]]
 
 
 @given(

@@ -20,7 +20,7 @@ def table(project: Project, name: str) -> pd.DataFrame:
 def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, project: Project) -> None:
     written = {name: path.stat().st_mtime_ns for name, path in project.scene_files.items()}
     project.configure("grid.velocities", [1, 10, 100])
-    project.run()
+    project.run("tables")
     assert len(project.scene_files) == 27
     assert {name: project.scene_files[name].stat().st_mtime_ns for name in written} == written
     for name, text in project.tables.items():
@@ -33,14 +33,14 @@ def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, pro
     expected = [float(simulate(project.campaign.scene(scale, 10, 5)).friction_coefficient) for scale in range(1, 5)]
     columns = [*(f"friction_scale_{scale}" for scale in range(1, 5)), "friction_total"]
     assert total.loc[(10, 5), columns].to_numpy() == pytest.approx([*expected, sum(expected)], rel=1e-5)
-    assert project.plan().jobs == {}
+    assert project.plan("tables").jobs == {}
 
 
 def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, template: Project) -> None:
     name = "scale3_v1_p5_aspect0.75_stress"
     damaged = project.scene_files[name]
     damaged.write_bytes(damaged.read_bytes()[:2000])
-    done = project.snakemake()
+    done = project.snakemake("tables")
     assert done.returncode == 1
     sentence = (
         rf"^BrokenResult: \S*{name}.nc is no readable result: .*; delete it and run again \(log: \S*campaign.log\)$"
@@ -48,7 +48,7 @@ def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, t
     assert len(re.findall(sentence, done.stderr, re.MULTILINE)) == 1
     damaged.unlink()
     assert project.plan().scenes == {name}
-    project.run()
+    project.run("tables")
     assert project.tables == template.tables
 
 
@@ -62,7 +62,7 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
     project.edit(
         "rubfric/slidingcontact.py", lambda text: re.sub(r"(?m)^_MOST_PIVOTS = \d+$", "_MOST_PIVOTS = 1", text)
     )
-    done = project.snakemake("--keep-going")
+    done = project.snakemake("tables", "--keep-going")
     assert done.returncode == 1
     solved = set(project.scene_files)
     assert solved
