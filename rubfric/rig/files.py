@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 
-from rubfric import checks
 from rubfric.errors import InvalidInput
 from rubfric.rig.settings import read_settings
 from rubfric.rigchoice import RigChoice
