@@ -11,6 +11,7 @@ rule scene:
         scene_file("{scene}"),
     log:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
+    priority: 5
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
         version=rubfric.__version__,
