@@ -4,7 +4,6 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.atomic import whole
 from rubfric.claimspage import claims_page
 from rubfric.collection import read
 from rubfric.dataset import load
@@ -14,6 +13,7 @@ from rubfric.observation import among, over_axes, profile_row, refusals, table
 from rubfric.readings import AS_CONFIGURED
 from rubfric.rigevidence import rig_evidence, rig_note
 from rubfric.statements import CLAIMS
+from rubfric.tablepage import write_page
 from rubfric.tables import read_table, write_table
 
 
@@ -67,6 +67,5 @@ def main(
     numbers = evidence_table(evidence)
     write_table(numbers, outputs["evidence"])
     write_table(claims, outputs["claims"])
-    with whole(outputs["page"]) as part:
-        part.write_text(claims_page(claims, numbers, about), encoding="utf-8")
+    write_page(claims_page(claims, numbers, about), outputs["page"])
     print(claims[claims["pressure_MPa"] == EVERY][["claim", "reading", "verdict", "parts"]].to_string(index=False))
