@@ -26,12 +26,12 @@ figures: $(VENV)/.ready
 # Snakemake's report runs nothing: it shows what there is, of accuracy and stability too.
 report: figures
 	snakemake everything $(if $(CONFIG),--configfile $(CONFIG)) --report "$$(python -c \
-		'import sys; from rubfric.campaign import load; print(load(*sys.argv[1:]).results)' \
+		'import sys; from rubfric.config.campaign import load; print(load(*sys.argv[1:]).results)' \
 		config/config.yaml $(CONFIG))/report.html"
 
 docs: $(VENV)/.ready
-	python -m rubfric.configdoc
-	python tests/unit/architecture.py
+	python -m rubfric.config.page
+	python tools/architecture.py
 
 test: $(VENV)/.ready
 	python -m pytest -n $(JOBS)
@@ -46,23 +46,23 @@ check: $(VENV)/.ready
 	ruff check .
 	ruff format --check .
 	mypy
-	MYPYPATH=tests/workflow mypy tests/cluster
+	MYPYPATH=tests/support mypy tests/cluster
 	snakefmt --check Snakefile workflow
 	snakemake --lint
 
 bench: $(VENV)/.ready
-	python tests/benchmark/scenes.py
-	python tests/benchmark/campaign.py
-	python tests/benchmark/transient.py
-	python tests/benchmark/dag.py
+	python tools/benchmark/scenes.py
+	python tools/benchmark/campaign.py
+	python tools/benchmark/transient.py
+	python tools/benchmark/dag.py
 
 accuracy: $(VENV)/.ready
 	snakemake -j$(JOBS) accuracy
-	python tests/benchmark/accuracy.py
+	python tools/benchmark/accuracy.py
 
 stability: $(VENV)/.ready
 	snakemake -j$(JOBS) stability
-	python tests/benchmark/stability.py
+	python tools/benchmark/stability.py
 
 format: $(VENV)/.ready
 	ruff check --fix .

@@ -19,19 +19,19 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "BrokenResult": "errors",
-    "Campaign": "campaign",
+    "Campaign": "config.campaign",
     "InvalidInput": "errors",
-    "Material": "material",
+    "Material": "rubber.material",
     "NotConverged": "errors",
-    "Numerics": "scene",
+    "Numerics": "scene.scene",
     "RubfricError": "errors",
-    "Scene": "scene",
-    "SineScale": "road",
-    "Procedure": "procedure",
-    "load": "campaign",
-    "march": "transient",
+    "Scene": "scene.scene",
+    "SineScale": "road.sine",
+    "Procedure": "scene.procedure",
+    "load": "config.campaign",
+    "march": "marching",
     "simulate": "simulation",
-    "write": "dataset",
+    "write": "results.dataset",
 }
 
 __all__ = ["__version__", *sorted(_HOMES)]

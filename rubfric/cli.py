@@ -7,12 +7,12 @@ import sys
 from pathlib import Path
 
 import rubfric
-from rubfric import campaign as campaigns
-from rubfric.choices import STARTS
+from rubfric.config import campaign as campaigns
+from rubfric.config.choices import STARTS
 from rubfric.errors import InvalidInput, RubfricError
-from rubfric.material import PLANES
-from rubfric.rigcli import add_rig
-from rubfric.scene import KINEMATICS, Scene
+from rubfric.rig.cli import add_rig
+from rubfric.rubber.material import PLANES
+from rubfric.scene.scene import KINEMATICS, Scene
 
 _EXAMPLE = """\
 example:
@@ -124,9 +124,9 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
 
 def _simulate(options: argparse.Namespace) -> int:
     _, scene = _read(options)
-    from rubfric.dataset import write  # heavy: only once the input is known to be right
+    from rubfric.results.dataset import write  # heavy: only once the input is known to be right
+    from rubfric.results.summary import summary
     from rubfric.simulation import simulate
-    from rubfric.summary import summary
 
     result = simulate(scene)
     print(summary(result))
@@ -141,11 +141,11 @@ def _march(options: argparse.Namespace) -> int:
     arguments = campaign.transient.procedure()
     names = ("start", "columns", "steps_per_wavelength", "wavelengths")
     arguments |= {name: getattr(options, name) for name in names if getattr(options, name) is not None}
-    from rubfric.dataset import write  # heavy: only once the input is known to be right
-    from rubfric.marchdata import build
-    from rubfric.procedure import Procedure
+    from rubfric.marching import march
+    from rubfric.results.dataset import write  # heavy: only once the input is known to be right
+    from rubfric.results.march import build
+    from rubfric.scene.procedure import Procedure
     from rubfric.simulation import simulate
-    from rubfric.transient import march
 
     procedure = Procedure(**arguments)
     steady = float(simulate(scene)["friction_coefficient"])

@@ -1,18 +1,60 @@
-"""One scene from its parameters to its dataset."""
+"""One scene from its parameters to its dataset: the one place that knows the steady driver and both kinematics."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import xarray as xr
 
-from rubfric import dataset
-from rubfric.energy import evaluate
 from rubfric.errors import NotConverged
-from rubfric.resolvable import require_resolved
-from rubfric.routes import most_closure
-from rubfric.scene import Scene
-from rubfric.steady import finer_mesh, require_solvable, solve
+from rubfric.mechanics.finite.energy import evaluate_finite
+from rubfric.mechanics.finite.steady import FiniteSolver
+from rubfric.mechanics.small.energy import evaluate_small
+from rubfric.mechanics.small.steady import SmallSolver
+from rubfric.mechanics.steady.energies import Energies, most_closure
+from rubfric.mechanics.steady.refinement import Solver, refined
+from rubfric.mechanics.steady.resolution import MOST_FINITE, most_columns
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.theory.kinematics import Decision, decide
+from rubfric.mechanics.theory.limits import require_height, require_resolvable, require_resolved
+from rubfric.results import dataset
+from rubfric.scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class Mechanics:
+    """One kinematics, as the drivers need it.
+
+    Attributes
+    ----------
+    solver : callable
+        Solves a scene, steadily sliding, on one mesh after the other.
+    evaluate : callable
+        Returns the friction coefficient by three routes and the stored strain energy of what ``solver`` has solved.
+    """
+
+    solver: Callable[[Scene, Decision], Solver[Any]]
+    evaluate: Callable[[Any], Energies]
+
+    def solve(self, scene: Scene, decision: Decision) -> SteadySolution:
+        """Slide a block steadily over its road, on meshes that follow from the contact and the accuracy.
+
+        Raises
+        ------
+        NotConverged
+            With the scene's name, step and residual.
+        """
+        solution: SteadySolution = refined(scene, self.solver(scene, decision))
+        return solution
+
+
+MECHANICS = {
+    "small": Mechanics(SmallSolver, evaluate_small),
+    "finite": Mechanics(FiniteSolver, evaluate_finite),
+}
 
 
 def simulate(scene: Scene) -> xr.Dataset:
@@ -21,10 +63,12 @@ def simulate(scene: Scene) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        See ``rubfric.dataset.build``; ``rubfric.write`` puts it into a file.
+        See ``rubfric.results.dataset.build``; ``rubfric.write`` puts it into a file.
 
     Raises
     ------
+    InvalidInput
+        Where the contact is too light for any mesh that the scene may have, or the load leaves hardly anything of it.
     NotConverged
         With the scene, the step and the residual; there is no result then.
 
@@ -37,11 +81,16 @@ def simulate(scene: Scene) -> xr.Dataset:
     0.206
     """
     started = time.perf_counter()
-    require_solvable(scene)
-    solution = solve(scene)
-    way_out = finer_mesh(solution.decision.kinematics == "finite")
-    require_resolved(scene, solution.contact.touching, solution.iterations, way_out)
-    energies = evaluate(solution)
+    decision = decide(scene)
+    finite = decision.kinematics == "finite"
+    if finite:
+        require_height(scene)
+    remedy = finer_mesh(finite)
+    require_resolvable(scene, most_columns(scene, finite), remedy)
+    mechanics = MECHANICS[decision.kinematics]
+    solution = mechanics.solve(scene, decision)
+    require_resolved(scene, solution.contact.touching, solution.iterations, remedy)
+    energies = mechanics.evaluate(solution)
     if not energies.closure <= most_closure(scene.numerics.accuracy):  # also where it is not a number
         raise NotConverged(
             scene.name,
@@ -49,6 +98,33 @@ def simulate(scene: Scene) -> xr.Dataset:
             energies.closure,
             "relative difference of the three friction coefficients",
             "the mesh does not resolve this scene, or Poisson's ratio is too near its bounds: raise the pressure; "
-            + way_out,
+            + remedy,
         )
     return dataset.build(solution, energies, time.perf_counter() - started)
+
+
+def solve(scene: Scene) -> SteadySolution:
+    """Slide a block steadily over its road, in the kinematics that the scene asks for or needs; no energies.
+
+    Raises
+    ------
+    NotConverged
+        With the scene's name, step and residual.
+    """
+    decision = decide(scene)
+    return MECHANICS[decision.kinematics].solve(scene, decision)
+
+
+def evaluate(solution: SteadySolution) -> Energies:
+    """Return the friction coefficient by three routes and the stored strain energy of a solved scene."""
+    return MECHANICS[solution.decision.kinematics].evaluate(solution)
+
+
+def finer_mesh(finite: bool) -> str:
+    """Return how a scene can have a finer mesh than it has had, in words."""
+    if finite:
+        return (
+            f"finite strain has at most {MOST_FINITE} columns, small strain (kinematics: small) up to "
+            "numerics.columns_max"
+        )
+    return "numerics.columns_max allows for more"

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
 
 # Zhou, Wang and Wei 2019, Table 1: shares of the instantaneous shear modulus, and relaxation times in s.
 TABLE_1_FRACTIONS = (0.000592717, 0.002536278, 0.024459921, 0.17432432, 0.387971288, 0.408678482)

@@ -81,7 +81,7 @@ def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
     Parameters
     ----------
     result : xarray.Dataset
-        As built by ``rubfric.dataset.build``.
+        As built by ``rubfric.results.dataset.build``.
     left, right : float
         Abscissae that the copies must cover at every height, mm.
     """

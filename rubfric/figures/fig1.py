@@ -24,7 +24,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``.
+        As gathered by ``rubfric.results.campaign.collect``.
     scales : sequence of int
         Scales of the road, 1 being the coarsest.
     pressures : sequence of float

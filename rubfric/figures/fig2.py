@@ -41,7 +41,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     Parameters
     ----------
     results : sequence of xarray.Dataset
-        As built by ``rubfric.dataset.build``, of one scale and height-to-width ratio, at every pressure and speed.
+        As built by ``results.dataset.build``, of one scale and height-to-width ratio, at every pressure and speed.
 
     Returns
     -------

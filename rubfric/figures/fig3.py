@@ -36,7 +36,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``.
+        As gathered by ``rubfric.results.campaign.collect``.
     scales : sequence of int
         Scales of the road, 1 being the coarsest; a panel for each and each pressure.
     pressures : sequence of float

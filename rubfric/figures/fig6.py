@@ -22,7 +22,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``; pressures at which no block of this ratio was run are left out.
+        As gathered by ``results.campaign.collect``; pressures at which no block of this ratio was run are left out.
     aspect : float
         Height over width of the blocks.
 

@@ -17,7 +17,7 @@ from rubfric.figures.bands import band_handle, draw_band, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.selection import described, friction, friction_error
-from rubfric.multiscale import total_error, total_friction
+from rubfric.results.scales import total_error, total_friction
 
 _HEIGHT = 2.9
 # A speed without a neighbour is drawn this far to either side, as a factor.
@@ -31,7 +31,7 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``; a speed at which any scale is missing is a gap.
+        As gathered by ``rubfric.results.campaign.collect``; a speed at which any scale is missing is a gap.
     aspect : float
         Height over width of the blocks.
     pressure : float

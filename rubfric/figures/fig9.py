@@ -18,7 +18,7 @@ from rubfric.figures import panels, style
 from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.columns import check_columns
 from rubfric.figures.scaling import scale_friction, scale_speeds, tick_decades
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def draw(
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``.
+        As gathered by ``rubfric.results.campaign.collect``.
     points : pandas.DataFrame
         As ``rubfric.rig.reduction.point_table`` returns it; may have no rows.
     aspect : float

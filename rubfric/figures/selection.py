@@ -22,7 +22,7 @@ def friction(campaign: xr.Dataset, **chosen: float) -> xr.DataArray:
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``; scenes that were not run are NaN.
+        As gathered by ``rubfric.results.campaign.collect``; scenes that were not run are NaN.
     **chosen : float
         Values of ``scale``, ``velocity`` (mm/s), ``pressure`` (MPa) or ``aspect``.
 
@@ -45,7 +45,7 @@ def friction_error(campaign: xr.Dataset, **chosen: float) -> xr.DataArray:
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.collection.collect``.
+        As gathered by ``rubfric.results.campaign.collect``.
     **chosen : float
         As for ``friction``.
 

@@ -56,7 +56,7 @@ def draw(table: pd.DataFrame) -> Figure:
     Parameters
     ----------
     table : pandas.DataFrame
-        As ``rubfric.stability`` makes it: one row a case, with ``outcome`` and ``reason``.
+        As ``rubfric.studies.stability.report`` makes it: one row a case, with ``outcome`` and ``reason``.
 
     Raises
     ------

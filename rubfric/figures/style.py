@@ -14,8 +14,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from rubfric.atomic import whole
 from rubfric.errors import InvalidInput
+from rubfric.files import whole
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.
 COLUMN = 88.0 / 25.4

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 
+from rubfric.config.rigchoice import RigChoice
 from rubfric.errors import InvalidInput
 from rubfric.rig.settings import read_settings
-from rubfric.rigchoice import RigChoice
 
 
 def rig_files(rig: RigChoice) -> list[str]:

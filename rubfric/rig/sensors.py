@@ -10,8 +10,8 @@ import pandas as pd
 from scipy.signal import lfilter
 
 from rubfric.arrays import Real
-from rubfric.atomic import whole
-from rubfric.frictionmap import FrictionCurve
+from rubfric.files import whole
+from rubfric.results.friction_map import FrictionCurve
 from rubfric.rig.record import SIMULATED, SIMULATED_MARK, Record, ordered
 from rubfric.rig.sled import GRAVITY, Motion, Sled
 

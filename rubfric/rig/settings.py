@@ -10,10 +10,10 @@ from typing import Any
 import yaml
 
 from rubfric import checks
+from rubfric.config.rigchoice import TRACTIONS
 from rubfric.errors import InvalidInput
 from rubfric.rig.textfile import DECIMALS, SEPARATORS
 from rubfric.rig.units import QUANTITIES, check_factor
-from rubfric.rigchoice import TRACTIONS
 
 _FORCES = ("normal", "traction")
 

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from rubfric.arrays import Real
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.frictionmap import FrictionCurve
+from rubfric.results.friction_map import FrictionCurve
 
 GRAVITY = 9806.65  # mm/s²
 # Relative accuracy of the motion, and points at which forces are looked at over the speeds.

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from rubfric import checks
+from rubfric.config.rigchoice import VirtualRig
 from rubfric.errors import InvalidInput
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.bearing import Drag
 from rubfric.rig.points import Rejected
 from rubfric.rig.record import SIMULATED
@@ -18,7 +19,6 @@ from rubfric.rig.reduction import Reduced, reduce_record
 from rubfric.rig.sensors import Ideal, Sensors, as_record, ideal, recorded, write_run
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.sled import Sled, choose_weight, slide
-from rubfric.rigchoice import VirtualRig
 
 # A run that settles lasts for so many s, and slides so many mm, at least.
 _LASTS, _SLIDES = 2.0, 3.0

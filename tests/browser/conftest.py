@@ -13,9 +13,10 @@ from selenium.webdriver.remote.webdriver import WebDriver
 from visit import MISSING, missing_program, requested_addresses, resize, start
 
 import rubfric
-from rubfric import collection, dataset
-from rubfric.explorer.data import payload
-from rubfric.explorer.page import write_page
+from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.page import write_page
+from rubfric.results import campaign as collection
+from rubfric.results import dataset
 
 CONFIG = Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml"
 SCALES, SPEEDS, PRESSURES, ASPECT = (1, 2), (1.0, 100.0, 1000.0, 10000.0), (0.5, 5.0), 0.75

@@ -16,7 +16,7 @@ import xarray as xr
 from conftest import OnCluster
 from project_copy import Project
 
-from rubfric.dataset import load
+from rubfric.results.dataset import load
 
 PATIENCE = 300.0  # s
 SCENES, BATCHES, READINGS, MARCHES, TABLES = 18, 2, 1, 1, 5
@@ -110,7 +110,7 @@ def test_numbers_are_those_of_a_run_without_a_cluster(survivor: OnCluster, here:
 
 def test_what_ran_on_the_node_is_remembered(survivor: OnCluster) -> None:
     assert survivor.here.plan().jobs == {}
-    survivor.here.comment("rubfric/contact.py")
+    survivor.here.comment("rubfric/mechanics/block/contact.py")
     assert survivor.here.plan().jobs["scene"] == SCENES
 
 

@@ -17,9 +17,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rubfric import checks
-from rubfric.campaign import Campaign, load
+from rubfric.config.campaign import Campaign, load
 from rubfric.errors import InvalidInput, RubfricError
-from rubfric.scene import COLUMNS_PER_HEIGHT, Scene
+from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 SCHEMA = jsonschema.Draft202012Validator(
     yaml.safe_load((ROOT / "workflow" / "schemas" / "config.schema.yaml").read_text(encoding="utf-8"))

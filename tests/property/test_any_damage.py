@@ -9,11 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rubfric import checkpoint, collection, dataset
 from rubfric.errors import BrokenResult
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.scene import Scene
+from rubfric.mechanics.march import checkpoint
+from rubfric.results import campaign as collection
+from rubfric.results import dataset
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 SCENE = Scene(1, SineScale(0.015, 35.0), 100.0, 5.0, 0.75, Material("any", 4.0, 0.45, (0.9,), (1e-4,)), "stress")

@@ -10,8 +10,8 @@ from admissible import rubbers
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rubfric.folding import fold
-from rubfric.material import PLANES, Material
+from rubfric.rubber.material import PLANES, Material
+from rubfric.rubber.pruning import fold
 
 # Of sums of up to forty terms of one sign.
 ROUND_OFF = 1e-12

@@ -10,17 +10,15 @@ from admissible import magnitudes, scenes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rubfric import reference
-from rubfric.block import Block
-from rubfric.contact import solve_contact
-from rubfric.energy import evaluate
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.material import BULK, MODULI, PLANES, Material
-from rubfric.road import SineScale
-from rubfric.scene import Scene
-from rubfric.simulation import simulate
-from rubfric.smallstrain import respond
-from rubfric.steady import solve
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.block.contact import solve_contact
+from rubfric.mechanics.small.response import respond
+from rubfric.mechanics.theory import layer as reference
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import BULK, MODULI, PLANES, Material
+from rubfric.scene.scene import Scene
+from rubfric.simulation import evaluate, simulate, solve
 
 MOST_BRANCHES = 8
 

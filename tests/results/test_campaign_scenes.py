@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from project_copy import Project
 
-from rubfric.dataset import read
+from rubfric.results.dataset import read
 
 
 @pytest.fixture(scope="module")

@@ -13,13 +13,13 @@ import pandas as pd
 import pytest
 from project_copy import Project
 
-from rubfric.homogeneous import pressed
+from rubfric.mechanics.theory.compression import pressed
 
 SCALES = (1, 2, 3, 4)
 VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)
 PRESSURES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 ASPECTS = (0.25, 0.5, 0.75, 1.0, 1.5)
-# Friction coefficients of converged meshes (rubfric.converged), to hold to 1 %, by scale, speed (mm/s), pressure (MPa)
+# Friction coefficients of converged meshes, to hold to 1 %, by scale, speed (mm/s), pressure (MPa)
 # and aspect; plane stress.
 KNOWN = {
     (1, 0.1, 5.0, 0.75): 0.002342,

@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 
 import rubfric
-from rubfric import cli, contact, dataset
-from rubfric.campaign import load
+from rubfric import cli
+from rubfric.config.campaign import load
+from rubfric.mechanics.block import contact
+from rubfric.results import dataset
 from rubfric.simulation import simulate
 
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"

@@ -8,14 +8,14 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.finiteenergy import evaluate_finite
-from rubfric.finitesteady import solve_finite
-from rubfric.routes import Energies
-from rubfric.scene import Numerics, Scene
-from rubfric.smallenergy import evaluate_small
-from rubfric.smallsteady import solve_small
-from rubfric.solution import Decision
+from rubfric.mechanics.finite.energy import evaluate_finite
+from rubfric.mechanics.finite.steady import solve_finite
+from rubfric.mechanics.small.energy import evaluate_small
+from rubfric.mechanics.small.steady import solve_small
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate
 
 SceneMaker = Callable[..., Scene]
 COARSE = Numerics(finite_contact_nodes=4, finite_columns_min=32, row_growth=1.4)

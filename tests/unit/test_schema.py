@@ -14,14 +14,14 @@ import pytest
 import yaml
 from test_campaign import BAD_CONFIGS, DEFAULT, MINIMAL, MISSING, ROOT, Bad, Config, case_name, changed
 
-from rubfric.campaign import Campaign
-from rubfric.choices import AspectStudy
+from rubfric.config.campaign import Campaign
+from rubfric.config.choices import AspectStudy
+from rubfric.config.presets import PRESET_KEYS
+from rubfric.config.readings import Reading
+from rubfric.config.rigchoice import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
-from rubfric.material import BULK, MODULI, PLANES, Material
-from rubfric.presets import PRESET_KEYS
-from rubfric.readings import Reading
-from rubfric.rigchoice import TRACTIONS, RigChoice, VirtualRig
-from rubfric.scene import DILATATIONS, KINEMATICS, Numerics
+from rubfric.rubber.material import BULK, MODULI, PLANES, Material
+from rubfric.scene.scene import DILATATIONS, KINEMATICS, Numerics
 
 SCHEMA: dict[str, Any] = yaml.safe_load((ROOT / "workflow" / "schemas" / "config.schema.yaml").read_text())
 UNITS = re.compile(r"(?<![\w/])(mm/s|MPa|1/mm|t/mm³|mm²|mm|kg|Hz|N|s)(?![\w/'])|\bdimensionless\b")

@@ -9,13 +9,15 @@ import pytest
 import xarray as xr
 
 import rubfric
-from rubfric import contact, continuation, energy, simulation, steady
+from rubfric import simulation
+from rubfric.config.presets import fineness
 from rubfric.errors import NotConverged
-from rubfric.material import Material
-from rubfric.newton import Stalled
-from rubfric.presets import fineness
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
+from rubfric.mechanics.block import contact
+from rubfric.mechanics.finite import continuation
+from rubfric.mechanics.finite.newton import Stalled
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
 from rubfric.simulation import simulate
 
 KINEMATICS = pytest.mark.parametrize("kinematics", ["small", "finite"])
@@ -45,8 +47,8 @@ def finite(scene: Scene) -> Scene:
 def test_dataset_holds_what_the_solver_and_the_energies_say(scene: Scene, kinematics: str) -> None:
     scene = replace(scene, kinematics=kinematics)
     result = simulate(scene)
-    solution = steady.solve(scene)
-    energies = energy.evaluate(solution)
+    solution = simulation.solve(scene)
+    energies = simulation.evaluate(solution)
     assert isinstance(result, xr.Dataset)
     assert float(result["friction_coefficient"]) == energies.stress_power
     assert float(result["friction_coefficient_dissipation"]) == energies.dissipation

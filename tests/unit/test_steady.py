@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric import steady
-from rubfric.finitesteady import FiniteSolution
-from rubfric.scene import Numerics, Scene
-from rubfric.smallsteady import SmallSolution, solve_small
-from rubfric.solution import Decision
+from rubfric import simulation as steady
+from rubfric.mechanics.finite.steady import FiniteSolution
+from rubfric.mechanics.small.steady import SmallSolution, solve_small
+from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.scene.scene import Numerics, Scene
 
 SceneMaker = Callable[..., Scene]
 COARSE = Numerics(finite_contact_nodes=4, finite_columns_min=32, row_growth=1.4)

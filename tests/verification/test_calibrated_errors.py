@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from rubfric.calibration import COVERAGE, EXCESS, calibrate, verdict
-from rubfric.campaign import load
-from rubfric.scene import Scene
-from rubfric.trials import SETS, drawn_scenes
+from rubfric.config.campaign import load
+from rubfric.scene.scene import Scene
+from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, verdict
+from rubfric.studies.accuracy.scenes import SETS, drawn_scenes
 
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config/config.yaml")
 SEED = 20251

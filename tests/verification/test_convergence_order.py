@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric import reference
-from rubfric.block import Block, graded_rows
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
-from rubfric.smallstrain import respond
-from rubfric.steady import solve
+from rubfric.mechanics.block.block import Block, graded_rows
+from rubfric.mechanics.small.response import respond
+from rubfric.mechanics.theory import layer as reference
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

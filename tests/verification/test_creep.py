@@ -8,15 +8,15 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rubfric.block import Block
-from rubfric.finiteblock import Fields, FiniteBlock
-from rubfric.finitehistory import Branches
-from rubfric.finitetransient import FiniteTransient
-from rubfric.material import Material
-from rubfric.relaxation import Relaxation
-from rubfric.road import SineScale
-from rubfric.scene import Scene
-from rubfric.smalltransient import SmallTransient
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.finite.block import Fields, FiniteBlock
+from rubfric.mechanics.finite.march import FiniteStepper
+from rubfric.mechanics.finite.state import Branches
+from rubfric.mechanics.small.march import SmallStepper
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.rubber.maxwell import Relaxation
+from rubfric.scene.scene import Scene
 
 Real = NDArray[np.float64]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
@@ -53,7 +53,7 @@ def creep(plane: str, material: Material, times: Real) -> Real:
     return -PRESSURE * (element(4.0 * shear, 4.0 * branch, times) + swelling)
 
 
-def crept(model: SmallTransient | FiniteTransient, count: int) -> tuple[Real, Real]:
+def crept(model: SmallStepper | FiniteStepper, count: int) -> tuple[Real, Real]:
     """Return times and the strain of a block under a sudden load, over five relaxation times."""
     length = 5.0 * TIME / count
     strains = []
@@ -63,8 +63,8 @@ def crept(model: SmallTransient | FiniteTransient, count: int) -> tuple[Real, Re
     return length * np.arange(count + 1), np.array(strains)
 
 
-def lowest(model: SmallTransient | FiniteTransient) -> float:
-    if isinstance(model, SmallTransient):
+def lowest(model: SmallStepper | FiniteStepper) -> float:
+    if isinstance(model, SmallStepper):
         return float(model.state.surface.mean())
     return float(model.state.fields.displacement[1, 0].mean())
 
@@ -74,7 +74,7 @@ def lowest(model: SmallTransient | FiniteTransient) -> float:
 def test_creep_in_small_strain_follows_the_closed_form_at_order_two(plane: str, material: Material) -> None:
     errors = []
     for count in (40, 80, 160):
-        times, strain = crept(SmallTransient(scene(plane, material), block(plane)), count)
+        times, strain = crept(SmallStepper(scene(plane, material), block(plane)), count)
         expected = creep(plane, material, times)
         errors.append(np.abs(strain - expected).max() / np.abs(expected[-1]))
     assert errors[-1] < 1e-4
@@ -107,7 +107,7 @@ def test_creep_in_finite_strain_follows_its_differential_equation_at_order_two()
 
     errors = []
     for count in (40, 80, 160):
-        times, strain = crept(FiniteTransient(scene("strain", ONE), block("strain")), count)
+        times, strain = crept(FiniteStepper(scene("strain", ONE), block("strain")), count)
         exact = solve_ivp(flow, (0.0, 5.0 * TIME), np.ones(3), t_eval=times, rtol=1e-10, atol=1e-12)
         expected = np.array([stretched(tensor) - 1.0 for tensor in exact.y.T])
         errors.append(np.abs(strain - expected).max() / np.abs(expected[-1]))
@@ -117,7 +117,7 @@ def test_creep_in_finite_strain_follows_its_differential_equation_at_order_two()
 
 @PLANES
 def test_light_creep_in_finite_strain_is_that_in_small_strain(plane: str) -> None:
-    finite, small = (kind(scene(plane, ONE), block(plane)) for kind in (FiniteTransient, SmallTransient))
+    finite, small = (kind(scene(plane, ONE), block(plane)) for kind in (FiniteStepper, SmallStepper))
     light = 1e-5
     for duration in (INSTANT, *[0.1 * TIME] * 20):
         outcomes = [model.advance(duration, 0.0, light) for model in (finite, small)]
@@ -131,7 +131,7 @@ def test_light_creep_in_finite_strain_is_that_in_small_strain(plane: str) -> Non
 def test_stress_of_a_held_block_relaxes_as_the_prony_series(plane: str) -> None:
     """Q - G_inf 1 = -sum_i G_i exp(-t / tau_i) (Cb^-1 - 1): any steps, to round-off."""
     rubber = Material("three", 4.17, 0.45, (0.3, 0.4, 0.2), (1e-2, 1e-4, 1e-6))
-    transient = FiniteTransient(scene(plane, rubber), block(plane))
+    transient = FiniteStepper(scene(plane, rubber), block(plane))
     finite, branches, state = transient.finite, Branches(transient.finite), transient.state
     held = finite.at_rest()
     held.displacement[0] = 0.4 * finite.block.row_positions[:, None]

@@ -12,11 +12,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.presets import fineness
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.config.presets import fineness
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

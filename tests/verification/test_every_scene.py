@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rubfric.campaign import load
-from rubfric.finitesteady import FiniteSolution
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.config.campaign import load
+from rubfric.mechanics.finite.steady import FiniteSolution
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config" / "config.yaml")

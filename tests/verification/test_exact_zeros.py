@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import pytest
 
-from rubfric.extremes import PANELS, cases
-from rubfric.trial import Trial, confined
+from rubfric.studies.stability.cases import PANELS, cases
+from rubfric.studies.stability.trial import Trial, confined
 
 # Every so-manieth case of each panel, and of marches, which take longer.
 _EVERY = 23

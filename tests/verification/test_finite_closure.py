@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.energy import evaluate
-from rubfric.finiteenergy import branch_tensors
-from rubfric.finitesteady import FiniteSolution
-from rubfric.finitestrain import second_stress
-from rubfric.scene import Scene
-from rubfric.steady import solve
+from rubfric.mechanics.finite.energy import branch_tensors
+from rubfric.mechanics.finite.law import second_stress
+from rubfric.mechanics.finite.steady import FiniteSolution
+from rubfric.scene.scene import Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.energy import evaluate
-from rubfric.routes import Energies
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.block import Block
-from rubfric.finiteblock import Fields, FiniteBlock
-from rubfric.finiteenergy import dissipated_and_stored
-from rubfric.finitesteady import FiniteSolution
-from rubfric.material import Material
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.finite.block import Fields, FiniteBlock
+from rubfric.mechanics.finite.energy import dissipated_and_stored
+from rubfric.mechanics.finite.steady import FiniteSolution
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

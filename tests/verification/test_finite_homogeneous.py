@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from rubfric.block import Block
-from rubfric.continuation import History, Start, attempt
-from rubfric.finiteblock import FiniteBlock
-from rubfric.homogeneous import pressed, stored_energy
-from rubfric.material import Material
-from rubfric.slidingcontact import Road, SlidingContact
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.finite.block import FiniteBlock
+from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.continuation import History, Start, attempt
+from rubfric.mechanics.theory.compression import pressed, stored_energy
+from rubfric.rubber.material import Material
 
 GLASSY = "glassy"
 RELAXED = "relaxed"

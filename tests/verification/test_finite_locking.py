@@ -9,10 +9,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rubfric.finitesteady import FiniteSolution
-from rubfric.material import Material
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.mechanics.finite.steady import FiniteSolution
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]
 PAPER, INCOMPRESSIBLE = 0.49, 0.4999999

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from rubfric.presets import fineness
-from rubfric.scene import Numerics, Scene
+from rubfric.config.presets import fineness
+from rubfric.scene.scene import Numerics, Scene
 from rubfric.simulation import simulate
 
 SceneMaker = Callable[..., Scene]

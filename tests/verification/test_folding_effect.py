@@ -6,11 +6,10 @@ from collections.abc import Callable
 
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.routes import Energies
-from rubfric.scene import Numerics, Scene
-from rubfric.solution import SteadySolution
-from rubfric.steady import solve
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 ROUTES = ("stress_power", "dissipation", "contact")

@@ -10,10 +10,9 @@ from collections.abc import Callable, Iterator
 import pytest
 from boundary_element import friction_coefficient
 
-from rubfric.energy import evaluate
-from rubfric.presets import fineness
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.config.presets import fineness
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 1e4)  # mm/s

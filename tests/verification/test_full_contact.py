@@ -8,14 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric import reference
-from rubfric.energy import evaluate
-from rubfric.presets import fineness
-from rubfric.routes import Energies
-from rubfric.scene import Numerics, Scene
-from rubfric.solution import SteadySolution
-from rubfric.steady import solve
-from rubfric.uncertainty import friction_error
+from rubfric.config.presets import fineness
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.mechanics.steady.error import friction_error
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.theory import layer as reference
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.block import Block
-from rubfric.contact import solve_contact
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.routes import Energies
-from rubfric.scene import Scene
-from rubfric.smallstrain import respond
-from rubfric.steady import solve
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.block.contact import solve_contact
+from rubfric.mechanics.small.response import respond
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

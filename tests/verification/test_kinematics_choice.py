@@ -9,11 +9,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.kinematics import decide, estimated_correction
-from rubfric.presets import fineness
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.config.presets import fineness
+from rubfric.mechanics.theory.kinematics import decide, estimated_correction
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 # Scale, mm/s, MPa; around where the estimate reaches a hundredth in plane strain.

@@ -8,12 +8,12 @@ from math import log
 import numpy as np
 import pytest
 
-from rubfric.block import Block
-from rubfric.finiteblock import FiniteBlock
-from rubfric.homogeneous import pressed
-from rubfric.newton import Solved, newton
-from rubfric.scene import Scene
-from rubfric.slidingcontact import Road, SlidingContact
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.finite.block import FiniteBlock
+from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.newton import Solved, newton
+from rubfric.mechanics.theory.compression import pressed
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 TOLERANCE = 1e-10

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.block import Block
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
-from rubfric.smallstrain import stiffness_moduli
-from rubfric.steady import solve
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.small.response import stiffness_moduli
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

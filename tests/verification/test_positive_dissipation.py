@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.scene import Numerics, Scene
-from rubfric.solution import SteadySolution
-from rubfric.steady import solve
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 Real = NDArray[np.float64]

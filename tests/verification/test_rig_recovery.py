@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from rubfric.frictionmap import FrictionCurve, FrictionMap
+from rubfric.results.friction_map import FrictionCurve, FrictionMap
 from rubfric.rig.bearing import Drag
 from rubfric.rig.points import Point
 from rubfric.rig.reduction import reduce_record

@@ -7,12 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from rubfric.energy import evaluate
-from rubfric.material import Material
-from rubfric.reference import full_contact_pressure
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.mechanics.theory.layer import full_contact_pressure
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]
 

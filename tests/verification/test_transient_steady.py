@@ -10,11 +10,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric.marching import March, wavelength_means
-from rubfric.procedure import Procedure
-from rubfric.road import SineScale
-from rubfric.scene import Numerics, Scene
-from rubfric.steady import solve
+from rubfric.mechanics.march.march import March, wavelength_means
+from rubfric.road.sine import SineScale
+from rubfric.scene.procedure import Procedure
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -7,12 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric import reference
-from rubfric.material import Material
-from rubfric.presets import fineness
-from rubfric.scene import Numerics, Scene
-from rubfric.solution import SteadySolution
-from rubfric.steady import solve
+from rubfric.config.presets import fineness
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.theory import layer as reference
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

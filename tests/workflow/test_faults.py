@@ -18,7 +18,7 @@ import pytest
 import xarray as xr
 from project_copy import MINIMAL, Project
 
-from rubfric.dataset import load
+from rubfric.results.dataset import load
 
 PATIENCE = 300.0  # s
 TARGETS = ("tables", "marches")

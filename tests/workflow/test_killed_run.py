@@ -11,8 +11,8 @@ import time
 import pytest
 from project_copy import Project
 
-from rubfric.dataset import read
-from rubfric.scalars import SCALARS
+from rubfric.results.dataset import read
+from rubfric.results.scalars import SCALARS
 
 PATIENCE = 120.0  # s
 

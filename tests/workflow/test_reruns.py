@@ -120,7 +120,7 @@ def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> No
 
 
 def test_edited_mechanics_run_everything(project: Project) -> None:
-    project.comment("rubfric/contact.py")
+    project.comment("rubfric/mechanics/block/contact.py")
     assert project.plan().jobs == EVERYTHING
 
 
@@ -129,7 +129,7 @@ def test_edited_script_of_scenes_runs_all_but_the_marches(project: Project) -> N
     assert project.plan().jobs == {"scene": 18, **CAMPAIGN, "field_figure": 2}
 
 
-@pytest.mark.parametrize("name", ["rubfric/finitetransient.py", "workflow/scripts/march_scene.py"])
+@pytest.mark.parametrize("name", ["rubfric/mechanics/finite/march.py", "workflow/scripts/march_scene.py"])
 def test_edited_marches_run_alone(project: Project, name: str) -> None:
     project.comment(name)
     assert project.plan().jobs == MARCHES
@@ -141,17 +141,17 @@ def test_added_speed_of_the_marches_runs_its_march_alone(project: Project) -> No
 
 
 def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -> None:
-    project.comment("rubfric/collection.py", "workflow/scripts/collect_campaign.py")
+    project.comment("rubfric/results/campaign.py", "workflow/scripts/collect_campaign.py")
     assert project.plan().jobs == CAMPAIGN
 
 
 def test_edited_tables_are_written_again_alone(project: Project) -> None:
-    project.comment("rubfric/tables.py")
+    project.comment("rubfric/results/tables.py")
     assert project.plan().jobs == {**TABLES, **RIG}
 
 
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
-    project.comment("rubfric/multiscale.py")
+    project.comment("rubfric/results/scales.py")
     plan = project.plan()
     assert plan.jobs == {**TABLES, "campaign_figure": 1, **RIG, "explorer": 1}
     assert plan.figures == {"fig7", "fig9"}
@@ -159,13 +159,15 @@ def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
 
 @pytest.mark.parametrize("name", ["page.py", "explorer.js"])
 def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
-    project.comment(f"rubfric/explorer/{name}")
+    project.comment(f"rubfric/pages/explorer/{name}")
     assert project.plan().jobs == {"explorer": 1}
 
 
 def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
-    project.comment("rubfric/campaign.py", "rubfric/cli.py", "rubfric/summary.py", "rubfric/__init__.py")
-    project.comment("rubfric/jobs.py", "rubfric/warm.py", "rubfric/sources.py", "rubfric/runlog.py")
+    project.comment("rubfric/config/campaign.py", "rubfric/cli.py", "rubfric/results/summary.py", "rubfric/__init__.py")
+    project.comment(
+        "rubfric/runner/jobs.py", "rubfric/runner/warm.py", "rubfric/runner/reruns.py", "rubfric/runner/runlog.py"
+    )
     project.comment("README.md", "pyproject.toml", "tests/conftest.py", "workflow/profiles/default/config.yaml")
     project.comment("Snakefile", "workflow/schemas/config.schema.yaml", DEFAULT, "config/minimal.yaml")
     for rules in sorted((project.root / "workflow" / "rules").glob("*.smk")):

@@ -60,7 +60,8 @@ def test_scene_without_a_solution_fails_alone(template: Project, project: Projec
     assert 0 < len(full) < len(fractions) == 18
     # Contact that may not pivot is found where it fills the road from the start, if anywhere.
     project.edit(
-        "rubfric/slidingcontact.py", lambda text: re.sub(r"(?m)^_MOST_PIVOTS = \d+$", "_MOST_PIVOTS = 1", text)
+        "rubfric/mechanics/finite/contact.py",
+        lambda text: re.sub(r"(?m)^_MOST_PIVOTS = \d+$", "_MOST_PIVOTS = 1", text),
     )
     done = project.snakemake("tables", "--keep-going")
     assert done.returncode == 1

@@ -23,7 +23,7 @@ ACCURACY_WORDS = {
 
 rule ladder:
     input:
-        package_files("rubfric.ladder"),
+        package_files("rubfric.studies.accuracy.ladder"),
         script="workflow/scripts/measure_ladder.py",
     output:
         f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
@@ -45,7 +45,7 @@ rule ladder:
 
 rule calibrate:
     input:
-        package_files("rubfric.calibration"),
+        package_files("rubfric.studies.accuracy.calibration"),
         script="workflow/scripts/calibrate_errors.py",
     output:
         f"{RESULTS}/accuracy/drawn/{{batch}}.csv",
@@ -73,7 +73,7 @@ rule calibrate:
 
 rule accuracy_tables:
     input:
-        package_files("rubfric.pages"),
+        package_files("rubfric.studies.accuracy.page"),
         script="workflow/scripts/tabulate_accuracy.py",
         ladders=expand(
             f"{RESULTS}/accuracy/ladders/{{scene}}.csv",

@@ -23,7 +23,7 @@ JUDGED = {
 
 rule reading:
     input:
-        package_files("rubfric.observation"),
+        package_files("rubfric.studies.paper.observation"),
         script="workflow/scripts/observe_scenes.py",
     output:
         f"{RESULTS}/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.csv",
@@ -46,7 +46,7 @@ rule reading:
 
 rule claims:
     input:
-        package_files("rubfric.claimspage", "rubfric.rigevidence"),
+        package_files("rubfric.pages.claims", "rubfric.studies.paper.rigevidence"),
         script="workflow/scripts/judge_claims.py",
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),

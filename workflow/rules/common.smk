@@ -8,14 +8,14 @@ from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
 
 import rubfric
-from rubfric import jobs
-from rubfric.campaign import load
+from rubfric.runner import jobs
+from rubfric.config.campaign import load
 from rubfric.checks import written
-from rubfric.findings import highest, verdicts
-from rubfric.readings import AS_CONFIGURED
-from rubfric.runlog import RunLog, attach
-from rubfric.sources import stamp
-from rubfric.trials import batches, drawn_scenes, fixed_scenes
+from rubfric.runner.findings import highest, verdicts
+from rubfric.config.readings import AS_CONFIGURED
+from rubfric.runner.runlog import RunLog, attach
+from rubfric.runner.reruns import stamp
+from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
 
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name

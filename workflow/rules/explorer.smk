@@ -1,5 +1,5 @@
 # One page to explore the campaign in a browser: the grid's scenes, without the other ratios of the study.
-from rubfric.explorer.assets import assets
+from rubfric.pages.explorer.assets import assets
 
 EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
@@ -8,7 +8,7 @@ EXPLORED = {
 
 rule explorer:
     input:
-        package_files("rubfric.explorer.data", "rubfric.explorer.page"),
+        package_files("rubfric.pages.explorer.data", "rubfric.pages.explorer.page"),
         [os.path.relpath(path) for path in assets()],
         script="workflow/scripts/build_explorer.py",
         campaign=rules.campaign.output[0],

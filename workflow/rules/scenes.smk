@@ -23,7 +23,7 @@ rule scene:
 
 rule campaign:
     input:
-        package_files("rubfric.collection"),
+        package_files("rubfric.results.campaign"),
         script="workflow/scripts/collect_campaign.py",
         scenes=scene_files,
     output:

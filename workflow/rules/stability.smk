@@ -1,5 +1,5 @@
 # Numerical stability far beyond the paper: every case of the matrix in a process of its own, some cases a job.
-from rubfric.extremes import cases
+from rubfric.studies.stability.cases import cases
 
 STABILITY = f"{RESULTS}/stability"
 EXTREMES = cases()
@@ -9,7 +9,7 @@ BATCHES = [str(number) for number in range(-(-len(EXTREMES) // CASES_PER_JOB))]
 
 rule stability_batch:
     input:
-        package_files("rubfric.stability"),
+        package_files("rubfric.studies.stability.report"),
         script="workflow/scripts/try_extremes.py",
     output:
         f"{RESULTS}/stability/batches/{{batch}}.csv",
@@ -31,7 +31,7 @@ rule stability_batch:
 
 rule stability_table:
     input:
-        package_files("rubfric.stability"),
+        package_files("rubfric.studies.stability.report"),
         script="workflow/scripts/tabulate_stability.py",
         batches=[f"{STABILITY}/batches/{batch}.csv" for batch in BATCHES],
     output:

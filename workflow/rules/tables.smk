@@ -7,7 +7,7 @@ TABLES = [
 
 rule scale_table:
     input:
-        package_files("rubfric.tables", "rubfric.tablepage"),
+        package_files("rubfric.results.tables", "rubfric.pages.table"),
         script="workflow/scripts/tabulate_scale.py",
         campaign=rules.campaign.output[0],
     output:
@@ -42,7 +42,7 @@ rule scale_table:
 
 rule total_table:
     input:
-        package_files("rubfric.tables", "rubfric.tablepage"),
+        package_files("rubfric.results.tables", "rubfric.pages.table"),
         script="workflow/scripts/tabulate_total.py",
         campaign=rules.campaign.output[0],
     output:

@@ -5,7 +5,7 @@ MARCH_FILES = [march_file(name) for name in MARCHES]
 
 rule march:
     input:
-        package_files("rubfric.marchdata", "rubfric.simulation"),
+        package_files("rubfric.results.march", "rubfric.marching"),
         script="workflow/scripts/march_scene.py",
     output:
         march_file("{scene}"),

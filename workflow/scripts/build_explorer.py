@@ -1,8 +1,9 @@
 """Build the page on which the campaign is explored in a browser."""
 
-from rubfric import collection, dataset
-from rubfric.explorer.data import payload
-from rubfric.explorer.page import write_page
+from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.page import write_page
+from rubfric.results import campaign as collection
+from rubfric.results import dataset
 
 
 def main(output: str, campaign: str, scenes: list[str], digests: list[str], aspect: float, road: str) -> None:

@@ -4,9 +4,9 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.calibration import calibrate
-from rubfric.scene import Numerics, Scene
-from rubfric.tables import write_table
+from rubfric.results.tables import write_table
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.studies.accuracy.calibration import calibrate
 
 
 def main(output: str, scenes: dict[str, dict[str, Any]], presets: dict[str, dict[str, Any]]) -> None:

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from rubfric.collection import collect
-from rubfric.dataset import write
+from rubfric.results.campaign import collect
+from rubfric.results.dataset import write
 
 
 def main(output: str, scenes: list[str], digests: list[str], mark: str) -> None:

@@ -3,8 +3,9 @@
 from importlib import import_module
 from typing import Any
 
-from rubfric import collection, dataset
 from rubfric.figures.style import save
+from rubfric.results import campaign as collection
+from rubfric.results import dataset
 
 
 def main(

@@ -1,9 +1,9 @@
 """Draw friction over speed and pressure, simulated and measured."""
 
-from rubfric.collection import read
 from rubfric.figures.fig9 import draw
 from rubfric.figures.style import save
-from rubfric.tables import read_table
+from rubfric.results.campaign import read
+from rubfric.results.tables import read_table
 
 
 def main(

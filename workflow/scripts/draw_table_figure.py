@@ -3,7 +3,7 @@
 from importlib import import_module
 
 from rubfric.figures.style import save
-from rubfric.tables import read_table
+from rubfric.results.tables import read_table
 
 # Rungs and names are words, whatever they look like.
 WORDS = ("scene", "knob", "rung", "set", "preset", "kinematics", "plane", "note")

@@ -4,17 +4,17 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.claimspage import claims_page
-from rubfric.collection import read
-from rubfric.dataset import load
-from rubfric.evidence import depth_evidence, gather, march_evidence, march_note
-from rubfric.judgement import EVERY, claims_table, evidence_table
-from rubfric.observation import among, over_axes, profile_row, refusals, table
-from rubfric.readings import AS_CONFIGURED
-from rubfric.rigevidence import rig_evidence, rig_note
-from rubfric.statements import CLAIMS
-from rubfric.tablepage import write_page
-from rubfric.tables import read_table, write_table
+from rubfric.config.readings import AS_CONFIGURED
+from rubfric.pages.claims import claims_page
+from rubfric.pages.table import write_page
+from rubfric.results.campaign import read
+from rubfric.results.dataset import load
+from rubfric.results.tables import read_table, write_table
+from rubfric.studies.paper.claims import CLAIMS
+from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
+from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
+from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
+from rubfric.studies.paper.verdicts import EVERY, claims_table, evidence_table
 
 
 def main(

@@ -5,14 +5,15 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from rubfric.dataset import write
 from rubfric.errors import BrokenResult
-from rubfric.marchdata import build
-from rubfric.procedure import Procedure
-from rubfric.scene import Scene
+from rubfric.marching import march
+from rubfric.mechanics.march.result import Transient
+from rubfric.results.dataset import write
+from rubfric.results.march import build
+from rubfric.runner.reruns import sources
+from rubfric.scene.procedure import Procedure
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
-from rubfric.sources import sources
-from rubfric.transient import Transient, march
 
 
 def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> None:
@@ -46,5 +47,5 @@ def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> 
 
 def checkpoint_of(output: Path) -> Path:
     """Return where a march leaves its state: other code, another name."""
-    code = hashlib.sha256(b"".join(path.read_bytes() for path in sources("rubfric.transient"))).hexdigest()[:16]
+    code = hashlib.sha256(b"".join(path.read_bytes() for path in sources("rubfric.marching"))).hexdigest()[:16]
     return output.with_name(f".{output.name}.{code}.checkpoint")

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from rubfric.ladder import climb
-from rubfric.scene import Scene
-from rubfric.tables import write_table
+from rubfric.results.tables import write_table
+from rubfric.scene.scene import Scene
+from rubfric.studies.accuracy.ladder import climb
 
 
 def main(output: str, name: str, parameters: dict[str, Any]) -> None:

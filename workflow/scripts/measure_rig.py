@@ -1,13 +1,13 @@
 """Reduce measured runs of the rig to friction over speed and pressure; without any, those of the virtual rig."""
 
-from rubfric.collection import read
-from rubfric.frictionmap import FrictionMap
+from rubfric.config.rigchoice import RigChoice, read_rig
+from rubfric.results.campaign import read
+from rubfric.results.friction_map import FrictionMap
+from rubfric.results.tables import write_table
 from rubfric.rig.reduction import point_table, reduce_files, rejected_table
 from rubfric.rig.settings import read_settings
 from rubfric.rig.summary import summary
 from rubfric.rig.virtual import measure, parts_of, plan, targets
-from rubfric.rigchoice import RigChoice, read_rig
-from rubfric.tables import write_table
 
 
 def main(points: str, rejected: str, campaign: str, aspect: float, rig: dict[str, object]) -> None:

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from rubfric.observation import observe, table
-from rubfric.scene import Scene
-from rubfric.tables import write_table
+from rubfric.results.tables import write_table
+from rubfric.scene.scene import Scene
+from rubfric.studies.paper.observation import observe, table
 
 
 def main(output: str, scenes: dict[str, dict[str, Any]]) -> None:

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from rubfric.dataset import write
-from rubfric.scene import Scene
+from rubfric.results.dataset import write
+from rubfric.results.summary import summary
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
-from rubfric.summary import summary
 
 
 def main(output: str, parameters: dict[str, Any]) -> None:

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from rubfric.atomic import whole
-from rubfric.calibration import climbed, verdict
-from rubfric.pages import accuracy_page
-from rubfric.tables import write_table
-from rubfric.trade import knob_table, priced, start_table
+from rubfric.files import whole
+from rubfric.results.tables import write_table
+from rubfric.studies.accuracy.calibration import climbed, verdict
+from rubfric.studies.accuracy.page import accuracy_page
+from rubfric.studies.accuracy.presets import knob_table, priced, start_table
 
 # What a label holds is text, though it may look like a number.
 _TEXT = {"rung": str, "note": str}

@@ -1,8 +1,8 @@
 """Write the table of one scale."""
 
-from rubfric.collection import read
-from rubfric.tablepage import table_page, write_page
-from rubfric.tables import scale_table, write_table
+from rubfric.pages.table import table_page, write_page
+from rubfric.results.campaign import read
+from rubfric.results.tables import scale_table, write_table
 
 
 def main(output: str, page: str, campaign: str, scale: int) -> None:

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from rubfric.atomic import whole
-from rubfric.extremes import cases
-from rubfric.stability import page as described
-from rubfric.tables import write_table
+from rubfric.files import whole
+from rubfric.results.tables import write_table
+from rubfric.studies.stability.cases import cases
+from rubfric.studies.stability.report import page as described
 
 
 def main(table: str, page: str, batches: list[str]) -> None:

@@ -1,8 +1,8 @@
 """Write the table of all scales and their sum."""
 
-from rubfric.collection import read
-from rubfric.tablepage import table_page, write_page
-from rubfric.tables import total_table, write_table
+from rubfric.pages.table import table_page, write_page
+from rubfric.results.campaign import read
+from rubfric.results.tables import total_table, write_table
 
 
 def main(output: str, page: str, campaign: str, aspect: float) -> None:

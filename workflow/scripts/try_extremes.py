@@ -4,10 +4,10 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.extremes import Case
-from rubfric.stability import row
-from rubfric.tables import write_table
-from rubfric.trial import confined
+from rubfric.results.tables import write_table
+from rubfric.studies.stability.cases import Case
+from rubfric.studies.stability.report import row
+from rubfric.studies.stability.trial import confined
 
 
 def main(output: str, cases: list[dict[str, Any]]) -> None:

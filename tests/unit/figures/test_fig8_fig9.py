@@ -15,7 +15,7 @@ from matplotlib.text import Text
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig8, fig9, style
 from rubfric.figures.bands import bands
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 
 Maker = Callable[..., xr.Dataset]
 PRESSURES, SPEEDS = [0.5, 5.0], [10.0, 1000.0]

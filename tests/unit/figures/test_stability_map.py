@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from rubfric.errors import InvalidInput
-from rubfric.extremes import cases
 from rubfric.figures.stability import _LOOKS, _written, draw
 from rubfric.figures.style import save
-from rubfric.stability import row
-from rubfric.trial import Trial
+from rubfric.studies.stability.cases import cases
+from rubfric.studies.stability.report import row
+from rubfric.studies.stability.trial import Trial
 
 ENDS = (
     Trial("converged", "", (0.1, 0.1, 0.1), 0.0, 0.0, 1.0, 100.0),

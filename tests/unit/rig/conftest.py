@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.sensors import Ideal, Sensors, recorded
 from rubfric.rig.settings import Settings
 from rubfric.rig.sled import Sled

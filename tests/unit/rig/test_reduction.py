@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.bearing import Drag
 from rubfric.rig.points import Point, _independent
 from rubfric.rig.reduction import Reduced, point_table, reduce_record, rejected_table

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
-from rubfric.frictionmap import FrictionCurve
+from rubfric.results.friction_map import FrictionCurve
 from rubfric.rig.bearing import measured_drag
 from rubfric.rig.clipping import clipped
 from rubfric.rig.record import MEASURED, Record, ordered

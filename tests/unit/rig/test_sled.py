@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 from rubfric.errors import InvalidInput
-from rubfric.frictionmap import FrictionCurve, FrictionMap
+from rubfric.results.friction_map import FrictionCurve, FrictionMap
 from rubfric.rig.sled import GRAVITY, Motion, Sled, Weight, choose_weight, slide
 
 NO_FRICTION = FrictionCurve(np.array([0.1, 1e5]), np.zeros(2), np.zeros(2))

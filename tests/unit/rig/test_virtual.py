@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rubfric.config.rigchoice import RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
-from rubfric.frictionmap import FrictionMap
+from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.files import rig_files
 from rubfric.rig.reduction import reduce_files
 from rubfric.rig.sensors import MOST_SAMPLES, Ideal, Sensors, recorded
 from rubfric.rig.settings import Settings
 from rubfric.rig.sled import GRAVITY, Sled
 from rubfric.rig.virtual import between, measure, parts_of, plan, simulate, targets
-from rubfric.rigchoice import RigChoice, VirtualRig
 
 RIG = VirtualRig(100.0, "rubber", 5.0, 100.0, 300.0, 0.5, 0.005, 0.2, 0.002, 0.005, 1000.0, 1)
 
@@ -147,6 +147,6 @@ def test_files_of_the_rig_are_found_or_named(tmp_path: Path) -> None:
 
 
 def test_choice_survives_the_way_into_a_job() -> None:
-    from rubfric.rigchoice import read_rig
+    from rubfric.config.rigchoice import read_rig
 
     assert read_rig(asdict(choice())) == choice()

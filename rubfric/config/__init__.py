@@ -1,0 +1,1 @@
+"""From YAML to a campaign; every key is defined once."""

@@ -1,0 +1,1 @@
+"""Contact mechanics of the sliding block."""

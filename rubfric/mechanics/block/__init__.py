@@ -1,0 +1,1 @@
+"""The finite-element block and its contact, in any kinematics."""

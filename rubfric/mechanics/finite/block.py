@@ -1,0 +1,244 @@
+"""The block in finite strain: forces and stiffness on the mesh, in steady sliding or at the end of a step of time.
+
+In steady sliding every field is f(xi, Y) with xi = X + v t in the frame of the road, and material lines Y = const are
+straight in the reference configuration. The past of a point is therefore the row of points upstream of it, and the
+branch tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency
+n k v. In a step of time they are a number times the state sought, and what is left of the state before.
+
+The volume ratio is an unknown of its own, tied to the deformation by an equation of its own. Eliminated, it would
+make the tangent as stiff as the bulk modulus along directions that turn with the deformation; kept, it leaves
+Newton's method and Krylov iterations the same work for any Poisson's ratio up to 1/2.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.arrays import Complex, Real
+from rubfric.mechanics.block.block import Block
+from rubfric.mechanics.finite.law import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.mechanics.finite.memory import Past, SteadyPast, convolve
+from rubfric.mechanics.theory.compression import pressed
+from rubfric.rubber.material import Material
+
+
+@dataclass(frozen=True)
+class Fields:
+    """What the solver looks for.
+
+    Attributes
+    ----------
+    displacement : ndarray, shape (2, rows + 1, columns)
+        u_x and u_y at the nodes, mm.
+    log_thickness : ndarray, shape (1 or 0, points, rows, columns)
+        Logarithm of the stretch across the thickness at the quadrature points; without entries in plane strain.
+    volume : ndarray, shape (points, rows, columns) or (1, rows, columns)
+        Volume ratio that the pressure follows from: at the points in plane stress, of the cells in plane strain.
+    """
+
+    displacement: Real
+    log_thickness: Real
+    volume: Real
+
+    def moved(self, step: Fields, share: float = 1.0) -> Fields:
+        """Return these fields plus a share of a step."""
+        return Fields(
+            self.displacement + share * step.displacement,
+            self.log_thickness + share * step.log_thickness,
+            self.volume + share * step.volume,
+        )
+
+
+@dataclass(frozen=True)
+class Stressed:
+    """The state of all quadrature points.
+
+    Attributes
+    ----------
+    deformation : Deformation
+        Shapes (..., points, rows, columns).
+    driving : ndarray, shape (4, points, rows, columns)
+        Q, MPa.
+    volumetric : ndarray, shape of ``Fields.volume``
+        U', MPa.
+    stress : ndarray, shape (4 or 5, points, rows, columns)
+        First Piola-Kirchhoff stress and, in plane stress, C_zz S_zz, MPa.
+    volume_excess : ndarray, shape of ``Fields.volume``
+        Volume ratio less that of the deformation; zero in a solution.
+    """
+
+    deformation: Deformation
+    driving: Real
+    volumetric: Real
+    stress: Real
+    volume_excess: Real
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """The tangent at all quadrature points; ``curvature`` is U'', MPa, in the shape of ``Fields.volume``."""
+
+    points: Tangent
+    curvature: Real
+
+
+class FiniteBlock:
+    """A meshed block of one rubber at one sliding speed; sliding steadily unless another past is given to it.
+
+    Plane stress integrates dilatation pointwise; plane strain by its mean over each cell, where the pointwise form
+    would lock.
+
+    Parameters
+    ----------
+    block : Block
+    material : Material
+    velocity : float
+        v, mm/s.
+    """
+
+    def __init__(self, block: Block, material: Material, velocity: float) -> None:
+        self.block = block
+        self.material = material
+        self.velocity = velocity
+        self.quadrature = block.quadrature(centred=True)
+        self.points = len(self.quadrature.shapes)
+        self.weights = self.quadrature.weights.T[:, :, None]  # mm², (points, rows, 1)
+        # From the four nodes of a cell to d/dx and d/dy at its points, and back with the weights.
+        gradients = self.quadrature.gradients
+        rows = block.rows
+        self._to_points = np.ascontiguousarray(gradients.swapaxes(2, 3).reshape(rows, 2 * self.points, 4))
+        weighed = gradients * self.quadrature.weights[:, :, None, None]
+        self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
+        self.frequencies = 2.0 * np.pi / block.width * velocity * block.harmonics
+        self.past: Past = SteadyPast(material, self.frequencies)
+
+    def remembering(self, past: Past) -> FiniteBlock:
+        """Return the same block with another past."""
+        other = copy.copy(self)
+        other.past = past
+        return other
+
+    @property
+    def shear_kernel(self) -> Complex:
+        """What the past adds to the long-term shear modulus of the harmonics, MPa, shape (n,)."""
+        return self.past.shear_kernel
+
+    @property
+    def bulk_kernel(self) -> Complex:
+        """What the past adds to the long-term bulk modulus of the harmonics, MPa, shape (n,)."""
+        return self.past.bulk_kernel
+
+    @property
+    def unknowns(self) -> int:
+        """Unknowns at a point: 5 in plane stress, 4 in plane strain."""
+        return 5 if self.block.plane == "stress" else 4
+
+    def at_rest(self) -> Fields:
+        """Return the fields of the block as it was made."""
+        block = self.block
+        return Fields(
+            np.zeros((2, block.rows + 1, block.columns)),
+            np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
+            np.ones((self.points if block.pointwise else 1, block.rows, block.columns)),
+        )
+
+    def pressed(self, pressure: float) -> Fields:
+        """Return the fields of the relaxed block pressed on a flat road, by a nominal pressure in MPa."""
+        stretch, thickness = pressed(self.material, pressure, self.block.plane)
+        fields = self.at_rest()
+        fields.displacement[1] = (stretch - 1.0) * self.block.row_positions[:, None]
+        fields.log_thickness[:] = math.log(thickness)
+        fields.volume[:] = stretch * thickness
+        return fields
+
+    def gradient(self, displacement: Real) -> Real:
+        """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, rows, columns)."""
+        rows, columns = self.block.rows, self.block.columns
+        corners = np.empty((rows, 4, 2, columns))
+        for level, part in ((0, displacement[:, :-1]), (2, displacement[:, 1:])):
+            left = part.swapaxes(0, 1)
+            corners[:, level] = left
+            corners[:, level + 1, :, :-1] = left[..., 1:]
+            corners[:, level + 1, :, -1] = left[..., 0]
+        slopes = (self._to_points @ corners.reshape(rows, 4, -1)).reshape(rows, self.points, 2, 2, columns)
+        # From (row, point, derivative, component, column).
+        return np.ascontiguousarray(slopes.transpose(3, 2, 1, 0, 4)).reshape(4, self.points, rows, columns)
+
+    def forces(self, stresses: Real) -> Real:
+        """Return the nodal forces of first Piola-Kirchhoff stresses, N per mm of thickness, (2, rows + 1, columns)."""
+        rows, columns = self.block.rows, self.block.columns
+        ordered = stresses.reshape(2, 2, self.points, rows, columns).transpose(3, 2, 1, 0, 4)
+        corners = (self._to_nodes @ ordered.reshape(rows, 2 * self.points, -1)).reshape(rows, 4, 2, columns)
+        corners = corners.transpose(1, 2, 0, 3)
+        nodal = np.zeros((2, rows + 1, columns))
+        for level, part in ((0, nodal[:, :-1]), (2, nodal[:, 1:])):
+            part += corners[level]
+            part[..., 1:] += corners[level + 1][..., :-1]
+            part[..., 0] += corners[level + 1][..., -1]
+        return nodal
+
+    def stressed(self, fields: Fields) -> Stressed:
+        """Return the state of the points under some fields.
+
+        Raises
+        ------
+        Inverted
+            Where a point is turned inside out, or its volume is not positive.
+        """
+        if not fields.volume.min() > 0.0:
+            raise Inverted(f"smallest volume ratio is {fields.volume.min():.3g}")
+        gradient = self.gradient(fields.displacement)
+        gradient[0] += 1.0
+        gradient[3] += 1.0
+        state = deform(gradient, fields.log_thickness)
+        driving = self.past.remembered_driving - self.past.shear(state.inverse)
+        driving[[0, 1, 3]] += self.material.long_term_shear_modulus
+        volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
+        if self.past.bulk_relaxes:
+            volumetric = volumetric + self.past.bulk(fields.volume) + self.past.remembered_pressure
+        excess = fields.volume - self.dilatation(state.volume)
+        return Stressed(state, driving, volumetric, stress(state, driving, volumetric), excess)
+
+    def stiffness(self, fields: Fields, state: Stressed) -> Stiffness:
+        """Return the tangent at the points of a state."""
+        _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
+        return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
+
+    def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
+        """Return the change of the stresses, MPa, and of the volume's excess under a small step."""
+        points = stiffness.points
+        change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
+        driving = -self.past.shear(_apply(points.inverse, change))
+        volumetric = stiffness.curvature * step.volume
+        if self.past.bulk_relaxes:
+            volumetric = volumetric + self.past.bulk(step.volume)
+        answer = _apply(points.local, change)
+        answer += _apply(points.by_driving, driving)
+        answer += points.volume * volumetric
+        return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
+
+    def stress_power(self, fields: Fields, state: Stressed) -> Real:
+        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns)."""
+        unknowns = np.concatenate((state.deformation.gradient, fields.log_thickness))
+        rate: Complex = 1j * self.frequencies.astype(complex)
+        rate[-1] = 0.0  # the phase of the last harmonic is unknown
+        power: Real = np.sum(state.stress * self.convolve(rate, unknowns), axis=0)
+        return power
+
+    def dilatation(self, volume: Real) -> Real:
+        """Return a volume ratio at the points as the pressure sees it: there, or as its mean over each cell."""
+        return volume if self.block.pointwise else volume.mean(axis=0, keepdims=True)
+
+    def convolve(self, kernel: Complex, field: Real) -> Real:
+        """Return the convolution along the road of a field with a kernel given by its harmonics."""
+        return convolve(kernel, field)
+
+
+def _apply(matrix: Real, vector: Real) -> Real:
+    """Return the product at every point of (i, j, ...) and (j, ...)."""
+    answer: Real = np.einsum("ij...,j...->i...", matrix, vector)
+    return answer

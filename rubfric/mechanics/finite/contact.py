@@ -1,0 +1,220 @@
+"""The contact of a finitely deformed block with the road, linearised: forces, gaps and one exact contact solve.
+
+Let T map fields to those that the block-circulant stiffness and a complementarity solve along the deformed road
+make of them: forces in balance, no node below the road, no tension. The fixed point of T solves the contact
+problem, and T(u) - u measures by how far fields miss both balance and contact.
+
+The contact is that of the deformed surface: a node is where it has moved to, X + u_x, and the frictionless
+road pushes along its normal there. The pressure on the top is a dead load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from rubfric.arrays import Complex, Flags, Real, Whole
+from rubfric.mechanics.block.contact import Contact, pivot
+from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness, Stressed
+from rubfric.mechanics.finite.circulant import Circulant
+from rubfric.road.sine import SineScale
+
+# A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
+_VOLUME = 0.03
+# On a flat road displacements count by this share of a wavelength instead of the amplitude.
+_FLAT = 1e-7
+# A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
+_MOST_PIVOTS = 100
+
+
+@dataclass(frozen=True)
+class Road:
+    """The road and the load on it: amplitude a, mm; wavenumber k, 1/mm; p, MPa; how far it has gone past, mm.
+
+    Positions are those of the block, which stays where it is while the road goes past.
+    """
+
+    amplitude: float
+    wavenumber: float
+    pressure: float
+    offset: float = 0.0
+
+    def height(self, position: Real) -> Real:
+        """Return s(x), mm."""
+        return self.amplitude * np.sin(self.wavenumber * (position + self.offset))
+
+    def slope(self, position: Real) -> Real:
+        """Return s'(x)."""
+        return self.amplitude * self.wavenumber * np.cos(self.wavenumber * (position + self.offset))
+
+    def curvature(self, position: Real) -> Real:
+        """Return s''(x), 1/mm."""
+        return -self.wavenumber * self.wavenumber * self.height(position)
+
+
+def measures(road: SineScale) -> tuple[float, float]:
+    """Return the displacement, mm, and the relative change of thickness that count as one on a road."""
+    unit = max(road.amplitude, _FLAT * road.wavelength)
+    return unit, unit * road.wavenumber
+
+
+@dataclass(frozen=True)
+class Correction:
+    """What T makes of fields.
+
+    Attributes
+    ----------
+    step : Fields
+        T(u) - u.
+    contact : Contact
+        Contact pressure (vertical force per column width, MPa), and gap above the road where nodes are.
+    position, slope : ndarray, shape (columns,)
+        Where the surface nodes are, x in mm, and the road's slope there.
+    state : Stressed
+        The state of the points under the fields.
+    """
+
+    step: Fields
+    contact: Contact
+    position: Real
+    slope: Real
+    state: Stressed
+
+
+class SlopedSurface:
+    """The surface of the block where the road pushes along its normals: compliance against vertical pressure."""
+
+    def __init__(self, compliance: Complex, slope: Real, column_width: float) -> None:
+        self._compliance = compliance * column_width
+        self._kernel = np.fft.irfft(self._compliance, len(slope), axis=-1)
+        self._normal = np.stack((-slope, np.ones_like(slope)))
+
+    def matrix(self, inside: Whole) -> Real:
+        """Return the compliance among the nodes ``inside``, mm/MPa."""
+        lag = inside[:, None] - inside[None, :]
+        normal = self._normal[:, inside]
+        return np.einsum("ai,abij,bj->ij", normal, self._kernel[:, :, lag], normal, optimize=True)
+
+    def deflection(self, pressure: Real) -> Real:
+        """Return how far the surface yields along the normals, mm."""
+        force = np.fft.rfft(self._normal * pressure, axis=-1)
+        moved = np.einsum("abn,bn->an", self._compliance, force)
+        answer: Real = (self._normal * np.fft.irfft(moved, len(pressure), axis=-1)).sum(axis=0)
+        return answer
+
+
+class SlidingContact:
+    """The contact problem of one block; what continuation varies is in the arguments.
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    scale : tuple of float
+        Displacement, mm, and relative change of thickness that count as one in the measure of ``size``.
+    label : str
+        Name that errors carry.
+    """
+
+    def __init__(self, finite: FiniteBlock, scale: tuple[float, float], label: str) -> None:
+        self.finite = finite
+        self.label = label
+        self._scale = (*scale, _VOLUME * scale[1])
+        rest = finite.at_rest()
+        self._shapes = (rest.displacement.shape, rest.log_thickness.shape, rest.volume.shape)
+        self._ends = np.cumsum([rest.displacement.size, rest.log_thickness.size])
+
+    def correct(self, circulant: Circulant, fields: Fields, road: Road, touching: Flags) -> Correction:
+        """Return T(u) - u and the contact that goes with it.
+
+        Raises
+        ------
+        rubfric.mechanics.finite.law.Inverted
+            Where the fields turn a point inside out.
+        rubfric.errors.NotConverged
+            Where the linearised contact has no solution.
+        """
+        finite = self.finite
+        width = finite.block.column_width
+        state = finite.stressed(fields)
+        forces = finite.forces(state.stress[:4])
+        forces[1, -1] += road.pressure * width
+        load = circulant.load(-forces, -state.stress[4:], -state.volume_excess)
+        free = circulant.surface(load)
+        position = finite.block.column_positions + fields.displacement[0, 0]
+        slope = road.slope(position)
+        height = fields.displacement[1, 0] - road.height(position) - slope * free[0] + free[1]
+        surface = SlopedSurface(circulant.compliance, slope, width)
+        contact = pivot(surface, -height, road.pressure, touching, self.label, _MOST_PIVOTS)
+        step = circulant.solve(load, np.stack((-slope, np.ones_like(slope))) * contact.pressure * width)
+        step.displacement[1] += contact.offset
+        return Correction(step, contact, position, slope, state)
+
+    def size(self, step: Fields) -> float:
+        """Return the root mean square of a step over its ``scale``."""
+        packed = self.pack(step)
+        return float(np.linalg.norm(packed) / np.sqrt(packed.size))
+
+    def pack(self, step: Fields) -> Real:
+        """Return a step as one dimensionless vector."""
+        length, strain, volume = self._scale
+        parts = (step.displacement / length, step.log_thickness / strain, step.volume / volume)
+        return np.concatenate([part.ravel() for part in parts])
+
+    def unpack(self, vector: Real) -> Fields:
+        """Return the step that ``pack`` made a vector of."""
+        parts = np.split(vector, self._ends)
+        return Fields(
+            *(scale * part.reshape(shape) for scale, part, shape in zip(self._scale, parts, self._shapes, strict=True))
+        )
+
+
+class Linearised:
+    """The derivative of u - T(u) while the contact nodes stay what they are.
+
+    Parameters
+    ----------
+    problem : SlidingContact
+    circulant : Circulant
+        Of T.
+    stiffness : Stiffness
+        The full tangent.
+    correction : Correction
+        T at the fields about which it is linearised.
+    road : Road
+    """
+
+    def __init__(
+        self, problem: SlidingContact, circulant: Circulant, stiffness: Stiffness, correction: Correction, road: Road
+    ) -> None:
+        finite = problem.finite
+        self._finite, self._circulant, self._stiffness = finite, circulant, stiffness
+        self._normal = np.stack((-correction.slope, np.ones_like(correction.slope)))
+        # The normal turns as nodes move along the road: a stiffness of the surface.
+        force = correction.contact.pressure * finite.block.column_width
+        self._turning = force * road.curvature(correction.position)
+        self._inside = np.flatnonzero(correction.contact.touching)
+        count = len(self._inside)
+        saddle = np.ones((count + 1, count + 1))
+        width = finite.block.column_width
+        surface = SlopedSurface(circulant.compliance, correction.slope, width)
+        saddle[:count, :count] = surface.matrix(self._inside) / width
+        saddle[count, count] = 0.0
+        self._saddle = lu_factor(saddle, check_finite=False)
+
+    def __call__(self, step: Fields) -> Fields:
+        """Return the change of u - T(u) under a change of u."""
+        finite, circulant = self._finite, self._circulant
+        change, excess = finite.change(self._stiffness, step)
+        forces = finite.forces(change[:4])
+        forces[0, 0] += self._turning * step.displacement[0, 0]
+        load = circulant.load(forces, change[4:], excess)
+        # Contact forces keep the contact nodes at their distance from the road, and carry no more than before.
+        missed = (self._normal * (step.displacement[:, 0] - circulant.surface(load))).sum(axis=0)[self._inside]
+        held = lu_solve(self._saddle, np.append(-missed, 0.0), check_finite=False)
+        contact = np.zeros_like(self._turning)
+        contact[self._inside] = held[:-1]
+        answer = circulant.solve(load, -self._normal * contact)
+        answer.displacement[1] -= held[-1]
+        return answer

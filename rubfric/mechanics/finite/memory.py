@@ -1,0 +1,139 @@
+"""What the rubber remembers, as the solver of one deformed state sees it: linear in that state, plus what is known.
+
+The branches add -H[Cb^-1] + M to the driving tensor and B[J] + N to the volumetric stress. In steady sliding the past
+is the row of points upstream: H and B are periodic convolutions along the road, and nothing is known. In a step of
+time they are numbers, and M and N what is left of the state before.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from scipy import fft
+
+from rubfric.arrays import Complex, Real
+from rubfric.rubber.material import Material
+
+
+class Past(Protocol):
+    """How the branches answer to a state.
+
+    Attributes
+    ----------
+    shear_kernel, bulk_kernel : ndarray of complex, shape (n,)
+        H and B for the harmonics of the road, MPa.
+    bulk_relaxes : bool
+        Whether B and N differ from zero.
+    anchored : bool
+        Whether it matters where along the road the block is.
+    """
+
+    shear_kernel: Complex
+    bulk_kernel: Complex
+    bulk_relaxes: bool
+    anchored: bool
+
+    @property
+    def remembered_driving(self) -> Real | float:
+        """M, MPa, shape (4, points, rows, columns) or a number."""
+        ...
+
+    @property
+    def remembered_pressure(self) -> Real | float:
+        """N, MPa, in the shape of ``Fields.volume`` or a number."""
+        ...
+
+    def shear(self, field: Real) -> Real:
+        """Return H of a field of points, MPa."""
+        ...
+
+    def bulk(self, field: Real) -> Real:
+        """Return B of a field of points, MPa."""
+        ...
+
+
+class SteadyPast:
+    """The past of a block that slides steadily.
+
+    Parameters
+    ----------
+    material : Material
+    frequencies : ndarray, shape (n,)
+        n k v, rad/s, of the harmonics 0 to columns / 2.
+    """
+
+    remembered_driving: Real | float = 0.0
+    remembered_pressure: Real | float = 0.0
+    anchored = False
+
+    def __init__(self, material: Material, frequencies: Real) -> None:
+        self.shear_kernel = _kernel(material.complex_shear_modulus(frequencies))
+        self.bulk_kernel = _kernel(material.complex_bulk_modulus(frequencies))
+        self.bulk_relaxes = bool(material.branch_bulk_moduli.any())
+
+    def shear(self, field: Real) -> Real:
+        """Return the convolution of a field with the shear kernel, MPa."""
+        return convolve(self.shear_kernel, field)
+
+    def bulk(self, field: Real) -> Real:
+        """Return the convolution of a field with the bulk kernel, MPa."""
+        return convolve(self.bulk_kernel, field)
+
+
+class StepPast:
+    """The past of a block at the end of a step of time.
+
+    Parameters
+    ----------
+    shear, bulk : float
+        H and B, MPa.
+    remembered_driving : ndarray, shape (4, points, rows, columns)
+        M, MPa.
+    remembered_pressure : ndarray, shape of ``Fields.volume``, or float
+        N, MPa; a float where the bulk does not relax.
+    harmonics : int
+        n.
+    """
+
+    anchored = True
+
+    def __init__(
+        self, shear: float, bulk: float, remembered_driving: Real, remembered_pressure: Real | float, harmonics: int
+    ) -> None:
+        self._shear, self._bulk = shear, bulk
+        self.remembered_driving: Real | float = remembered_driving
+        self.remembered_pressure: Real | float = remembered_pressure
+        self.bulk_relaxes = isinstance(remembered_pressure, np.ndarray)
+        self.shear_kernel = np.full(harmonics, shear, dtype=complex)
+        self.bulk_kernel = np.full(harmonics, bulk, dtype=complex)
+
+    def shear(self, field: Real) -> Real:
+        """Return H times a field, MPa."""
+        return self._shear * field
+
+    def bulk(self, field: Real) -> Real:
+        """Return B times a field, MPa."""
+        return self._bulk * field
+
+
+def convolve(kernel: Complex, field: Real) -> Real:
+    """Return the convolution along the road (the last axis) of a field with a kernel given by its harmonics."""
+    spectrum = fft.rfft(field, axis=-1)
+    spectrum *= kernel
+    answer: Real = fft.irfft(spectrum, field.shape[-1], axis=-1, overwrite_x=True)
+    return answer
+
+
+def branch_transfers(material: Material, frequencies: Real) -> Complex:
+    """Return i w tau / (1 + i w tau), shape (branches, n), for ``convolve``; the last harmonic is its own conjugate."""
+    transfers = material.branch_transfer(frequencies)
+    transfers[:, -1] = transfers[:, -1].real
+    return transfers
+
+
+def _kernel(modulus: Complex) -> Complex:
+    """Return what a modulus adds to its long-term value; the last harmonic is its own conjugate."""
+    kernel = modulus - modulus[0].real
+    kernel[-1] = kernel[-1].real
+    return kernel

@@ -1,0 +1,196 @@
+"""Newton's method for a sliding contact in finite strain, at one amplitude of the road and one load.
+
+It seeks the zero of u - T(u), T being one exact linearised contact solve (``finite.contact``). GMRES finds
+each direction with the full tangent, at the contact nodes of T; a step is shortened until u - T(u) falls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from rubfric.arrays import Flags, Real
+from rubfric.errors import NotConverged
+from rubfric.mechanics.finite.block import Fields
+from rubfric.mechanics.finite.circulant import Circulant
+from rubfric.mechanics.finite.contact import Correction, Linearised, Road, SlidingContact
+from rubfric.mechanics.finite.law import Inverted
+
+_MOST_STEPS = 16
+# A direction that took more Krylov iterations is worth a new average of the tangent, unless told otherwise.
+_WORTH = 6
+_MOST_KRYLOV = 60
+_SHORTEST_STEP = 1.0 / 16.0
+# Share of the decrease of a full linear step that a step must bring.
+_DECREASE = 0.1
+# A step may end above the last residual, as long as it ends below the larger of so many of them.
+_MEMORY = 2
+# GMRES solves to a share of the residual: the loosest where residuals fall slowly, in proportion where they fall fast.
+# Far from the solution an exact direction leads astray: along soft modes of the tangent there, not of the contact.
+_LOOSEST, _TIGHTEST, _IN_PROPORTION = 0.03, 0.01, 0.5
+
+
+class Stalled(RuntimeError):
+    """Newton's method came to an end without a solution: why, after how much work, and how far off."""
+
+    def __init__(self, reason: str, steps: int, krylov: int, residual: float) -> None:
+        super().__init__(reason, steps, krylov, residual)
+        self.reason = reason
+        self.steps = steps
+        self.krylov = krylov
+        self.residual = residual
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A converged contact.
+
+    Attributes
+    ----------
+    fields : Fields
+    correction : Correction
+        What T makes of them.
+    residuals : tuple of float
+        Size of u - T(u) before each Newton step, and at the end.
+    krylov : int
+        Applications of the tangent.
+    circulant : Circulant
+        The averaged tangent last used.
+    """
+
+    fields: Fields
+    correction: Correction
+    residuals: tuple[float, ...]
+    krylov: int
+    circulant: Circulant
+
+    @property
+    def steps(self) -> int:
+        """Newton steps taken."""
+        return len(self.residuals) - 1
+
+
+def newton(
+    problem: SlidingContact,
+    start: Fields,
+    road: Road,
+    touching: Flags,
+    tolerance: float,
+    circulant: Circulant | None = None,
+    worth: int = _WORTH,
+) -> Solved:
+    """Solve the contact from some fields and a first guess of the contact nodes.
+
+    Parameters
+    ----------
+    tolerance : float
+        Size of u - T(u), as ``SlidingContact.size`` measures it, at which to stop.
+    circulant : Circulant, optional
+        An averaged tangent to begin with.
+    worth : int
+        A direction that took more Krylov iterations is followed by a new average of the tangent.
+
+    Raises
+    ------
+    Stalled
+        Where the residual no longer falls, a point is turned inside out, numbers overflow, or the linearised contact
+        has no solution.
+    """
+    residuals: list[float] = []
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
+            return _iterate(problem, start, road, touching, tolerance, circulant, worth, residuals)
+    except FloatingPointError as error:  # fields too far off for arithmetic
+        raise Stalled(str(error), len(residuals), 0, residuals[-1] if residuals else np.inf) from error
+
+
+def _iterate(
+    problem: SlidingContact,
+    start: Fields,
+    road: Road,
+    touching: Flags,
+    tolerance: float,
+    circulant: Circulant | None,
+    worth: int,
+    residuals: list[float],
+) -> Solved:
+    """Do what ``newton`` does, and keep the sizes of u - T(u) in ``residuals``."""
+    fields, correction, krylov = start, None, 0
+    while True:
+        steps = max(0, len(residuals) - 1)
+        try:
+            if circulant is None:
+                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
+                circulant, correction = Circulant(problem.finite, average, road.pressure), None
+            if correction is None:
+                correction = problem.correct(circulant, fields, road, touching)
+        except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
+            raise Stalled(str(error), steps, krylov, residuals[-1] if residuals else np.inf) from error
+        size = problem.size(correction.step)
+        residuals.append(size)
+        if size <= tolerance:
+            return Solved(fields, correction, tuple(residuals), krylov, circulant)
+        if len(residuals) > _MOST_STEPS:
+            raise Stalled("too many steps", len(residuals) - 1, krylov, size)
+        stiffness = problem.finite.stiffness(fields, correction.state)
+        linear = Linearised(problem, circulant, stiffness, correction, road)
+        direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
+        krylov += count
+        ahead = _advance(problem, circulant, fields, direction, road, correction, max(residuals[-_MEMORY:]))
+        if ahead is None:
+            raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
+        fields, correction = ahead
+        touching = correction.contact.touching
+        if count > worth and problem.size(correction.step) > tolerance:
+            circulant = None
+
+
+def _forcing(residuals: list[float]) -> float:
+    """Return the share of the residual to which GMRES should solve."""
+    if len(residuals) < 2:
+        return _LOOSEST
+    return min(_LOOSEST, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
+
+
+def _direction(problem: SlidingContact, linear: Linearised, right: Fields, forcing: float) -> tuple[Fields, int]:
+    """Return the Newton direction and how often the tangent was applied."""
+    vector = problem.pack(right)
+    applied = 0
+
+    def apply(packed: Real) -> Real:
+        nonlocal applied
+        applied += 1
+        return problem.pack(linear(problem.unpack(packed)))
+
+    operator = LinearOperator((vector.size, vector.size), matvec=apply, dtype=float)
+    solution, _ = gmres(operator, vector, rtol=forcing, restart=_MOST_KRYLOV, maxiter=1)
+    return problem.unpack(solution), applied
+
+
+def _advance(
+    problem: SlidingContact,
+    circulant: Circulant,
+    fields: Fields,
+    direction: Fields,
+    road: Road,
+    correction: Correction,
+    size: float,
+) -> tuple[Fields, Correction] | None:
+    """Return the fields after a step along a direction, as long as brings u - T(u) below ``size``.
+
+    With them, what T makes of them; None where no step does.
+    """
+    share = 1.0
+    while share >= _SHORTEST_STEP:
+        moved = fields.moved(direction, share)
+        try:
+            ahead = problem.correct(circulant, moved, road, correction.contact.touching)
+        except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
+            pass
+        else:
+            if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:
+                return moved, ahead
+        share *= 0.5
+    return None

@@ -1,0 +1,173 @@
+"""Steady sliding of one scene in finite strain: a coarse mesh first, then the one that the contact needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rubfric.arrays import Flags, Real
+from rubfric.mechanics.finite.block import Fields, FiniteBlock
+from rubfric.mechanics.finite.contact import Correction, Road, SlidingContact, measures
+from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
+from rubfric.mechanics.finite.newton import Solved, Stalled
+from rubfric.mechanics.finite.prolongation import prolong
+from rubfric.mechanics.steady.energies import ROUND_OFF
+from rubfric.mechanics.steady.refinement import SHORTFALL, refined
+from rubfric.mechanics.steady.resolution import Resolution, fit, needed
+from rubfric.mechanics.steady.solution import Friction, SteadySolution
+from rubfric.mechanics.theory.compression import pressed, stored_energy
+from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.mechanics.theory.limits import estimated_fraction, near_crest
+from rubfric.rubber.pruning import fold_scene
+from rubfric.scene.scene import Scene
+
+# The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
+_NODES, _FEWEST_NODES = 0.25, 6
+# The first guess of the contact: that of an elastic half-space, so many times as wide.
+_FIRST_GUESS = 3.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FiniteSolution(SteadySolution):
+    """Steady sliding in finite strain.
+
+    Attributes
+    ----------
+    finite : FiniteBlock
+        The block with its rubber, folded.
+    fields : Fields
+        Displacement and thickness.
+    correction : Correction
+        The state of the points, and the contact along the deformed surface.
+    """
+
+    finite: FiniteBlock
+    fields: Fields
+    correction: Correction
+
+    @property
+    def surface_position(self) -> Real:
+        """Where the surface nodes are, mm along the road, shape (columns,)."""
+        return self.correction.position
+
+    @property
+    def surface_stretch(self) -> Real:
+        """Area of the surface at its nodes, along the road and across, over that as it was made."""
+        spacing = np.diff(self.correction.position, append=self.correction.position[0] + self.block.width)
+        along = 0.5 * (spacing + np.roll(spacing, 1)) / self.block.column_width
+        if not len(self.fields.log_thickness):
+            return along
+        lowest = np.exp(self.fields.log_thickness[0, 0, 0])
+        return along * 0.5 * (lowest + np.roll(lowest, 1))
+
+    @property
+    def compression(self) -> float:
+        """Share of its height that the load takes from the relaxed block on a flat road, dimensionless."""
+        return 1.0 - self._pressed[0]
+
+    @property
+    def pressed_energy(self) -> float:
+        """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
+        return stored_energy(self.scene.material, *self._pressed)
+
+    @cached_property
+    def _pressed(self) -> tuple[float, float]:
+        return pressed(self.scene.material, self.scene.pressure, self.scene.plane)
+
+
+def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
+    """Slide a block steadily over its scale of the road, in finite strain.
+
+    The mesh follows from the contact, and is refined as ``rubfric.mechanics.steady.refinement`` says.
+
+    Raises
+    ------
+    NotConverged
+        Where no way leads to a solution, with the scene's name, steps and residual.
+    """
+    return refined(scene, FiniteSolver(scene, decision))
+
+
+class FiniteSolver:
+    """Solves one scene on one mesh after the other, each from the solution on the one before."""
+
+    finite = True
+
+    def __init__(self, scene: Scene, decision: Decision) -> None:
+        self.scene = scene
+        self.decision = decision
+        self._road = Road(scene.road.amplitude, scene.road.wavenumber, scene.pressure)
+        self._history = History()
+        self._before: tuple[FiniteBlock, Solved] | None = None
+
+    def first(self) -> Resolution:
+        """Return the mesh to begin with, from the contact of an elastic half-space."""
+        scene = self.scene
+        nodes = max(_FEWEST_NODES, _NODES * scene.numerics.finite_contact_nodes)
+        coarse = needed(scene, 1.0, self.finite).coarser(scene, self.finite)
+        return Resolution(
+            fit(scene, max(coarse.columns, nodes / estimated_fraction(scene)), self.finite), coarse.growth
+        )
+
+    def solve(self, resolution: Resolution) -> FiniteSolution:
+        """Return the solution on a mesh."""
+        scene, tolerance, history = self.scene, self.scene.numerics.tolerance, self._history
+        block = resolution.block(scene)
+        folding = fold_scene(scene, block.harmonics[1:])
+        finite = FiniteBlock(block, folding.material, scene.velocity)
+        problem = SlidingContact(finite, measures(scene.road), scene.name)
+        solved = self._warm(problem)
+        if solved is None:
+            near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
+            flat = Start(finite.pressed(scene.pressure), near)
+            solved = reach(problem, flat, self._road, tolerance, history)
+        self._before = finite, solved
+        contact = solved.correction.contact
+        wanted = (1.0 - SHORTFALL) * min(scene.numerics.finite_contact_nodes, block.columns)
+        return FiniteSolution(
+            scene=scene,
+            decision=self.decision,
+            folding=folding,
+            block=block,
+            friction=_friction(scene, finite, solved),
+            contact=contact,
+            iterations=history.steps,
+            krylov=history.krylov,
+            resolved=bool(np.count_nonzero(contact.touching) >= wanted),
+            history=tuple(history.lines),
+            finite=finite,
+            fields=solved.fields,
+            correction=solved.correction,
+        )
+
+    def _warm(self, problem: SlidingContact) -> Solved | None:
+        """Return the solution reached from that on the mesh before, or None."""
+        if self._before is None:
+            return None
+        finite, solved = self._before
+        columns = problem.finite.block.columns
+        start = Start(
+            prolong(solved.fields, finite, problem.finite), _carry(solved.correction.contact.touching, columns)
+        )
+        what = f"{columns} columns, from {finite.block.columns}"
+        try:
+            return attempt(problem, start, self._road, self.scene.numerics.tolerance, self._history, what)
+        except Stalled:
+            return None
+
+
+def _friction(scene: Scene, finite: FiniteBlock, solved: Solved) -> Friction:
+    correction, block = solved.correction, finite.block
+    power = (finite.stress_power(solved.fields, correction.state) * finite.weights).sum()
+    return Friction(
+        stress_power=float(power / (scene.velocity * scene.pressure * block.width)),
+        contact=float(np.mean(correction.contact.pressure * correction.slope) / scene.pressure),
+        resolution=max(scene.numerics.tolerance * scene.road.steepest_slope, ROUND_OFF),
+    )
+
+
+def _carry(touching: Flags, columns: int) -> Flags:
+    """Return contact nodes on another number of columns."""
+    return touching[np.arange(columns) * len(touching) // columns]

@@ -1,0 +1,1 @@
+"""Marching in time: steps, records and saturation, in any kinematics."""

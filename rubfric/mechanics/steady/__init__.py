@@ -1,0 +1,1 @@
+"""Steady sliding: meshes, refinement and error, in any kinematics."""

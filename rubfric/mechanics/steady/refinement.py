@@ -1,0 +1,104 @@
+"""From a coarse mesh to one that is fine enough: what every way of solving a scene has in common.
+
+A scene is solved on a mesh with cells twice as large as the contact seems to need, then on the one that it needs, and
+then on finer ones, until the estimated error of friction is within the accuracy asked for. All of them, and the
+routes to friction on the last, say how large the error is (``rubfric.mechanics.steady.error``).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from rubfric.mechanics.steady.error import ORDER, allowance, discretisation_error
+from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
+from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
+from rubfric.scene.scene import Scene
+
+# Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
+SHORTFALL = 0.1
+# A mesh has at most this many times the columns of the one before, on the way to the contact.
+_STRIDE = 6.0
+# A mesh of nearly the columns of the coarse one stands in for it.
+_NEAR = 1.5
+# Smallest and largest refinement that an error asks for, and how much more than its estimate says.
+_LEAST, _MOST, _MARGIN = 1.5, 2.0, 1.1
+# Where so fine a mesh may not be solved, one finer by this factor is worth while.
+_WORTH = 1.2
+
+Solution = TypeVar("Solution", bound=SteadySolution, covariant=True)
+
+
+class Solver(Protocol[Solution]):
+    """Solves one scene on one mesh after the other, each from what the one before has found."""
+
+    finite: bool
+
+    def first(self) -> Resolution:
+        """Return the mesh to begin with."""
+
+    def solve(self, resolution: Resolution) -> Solution:
+        """Return the solution on a mesh."""
+
+
+def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
+    """Solve a scene on meshes that follow from one another; return the solution on the last.
+
+    Raises
+    ------
+    NotConverged
+        From ``solver``.
+    """
+    meshes: list[OnMesh] = []
+    solution = steps_to(scene, solver, meshes)
+    resolution = needed(scene, solution.contact_fraction, solver.finite)
+    most = most_columns(scene, solver.finite)
+    while True:
+        solution = _solved(solver, resolution, meshes)
+        if solution.resolved or resolution.columns >= most:
+            break
+        resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, solver.finite)
+    for _ in range(scene.numerics.refinements):
+        friction, error, allowed = solution.friction, discretisation_error(meshes), allowance(solution)
+        helps = abs(friction.stress_power) > friction.resolution and resolution.columns < most
+        if not (helps and 0.0 < allowed < error):
+            break
+        factor = min(max(_MARGIN * (error / allowed) ** (1.0 / ORDER), _LEAST), _MOST)
+        finer = next(_choices(scene, resolution, factor, solver.finite), None)
+        if finer is None:
+            break
+        resolution, solution = finer, _solved(solver, finer, meshes)
+    return dataclasses.replace(solution, meshes=tuple(meshes))
+
+
+def _choices(scene: Scene, resolution: Resolution, factor: float, finite: bool) -> Iterator[Resolution]:
+    """Yield finer meshes that may be solved, that of ``factor`` first; none that would be hardly finer."""
+    while factor >= _WORTH:
+        finer = resolution.finer(scene, factor, finite)
+        if finer.affordable(scene, finite):
+            yield finer
+        factor -= 0.1
+
+
+def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> Solution:
+    """Return the solution on a mesh about half as fine as the contact needs; ``meshes`` gets what was solved."""
+    resolution = solver.first()
+    solution = _solved(solver, resolution, meshes)
+    while True:
+        coarse = needed(scene, solution.contact_fraction, solver.finite).coarser(scene, solver.finite)
+        if coarse.columns <= _NEAR * resolution.columns:
+            return solution
+        stride = resolution.finer(scene, _STRIDE, solver.finite)
+        resolution = coarse if coarse.columns <= stride.columns else Resolution(stride.columns, coarse.growth)
+        solution = _solved(solver, resolution, meshes)
+
+
+def _solved(solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+    solution = solver.solve(resolution)
+    touching = int(np.count_nonzero(solution.contact.touching))
+    block = solution.block
+    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction))
+    return solution

@@ -1,0 +1,85 @@
+"""How finely a scene is meshed: columns along the road and growth of the rows, and coarser and finer of their kind."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from scipy.fft import next_fast_len
+
+from rubfric.mechanics.block.block import Block
+from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
+
+# A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
+COLUMN_STEP = 8
+# Columns, and cells, beyond which a mesh in finite strain takes more than three gigabytes.
+MOST_FINITE, MOST_CELLS = 4096, 450_000
+# Growth of rows below which they count as even.
+_LEAST_GROWTH = 1.00001
+# A coarse mesh has no fewer columns, and its rows grow no faster.
+_COARSEST_COLUMNS, _COARSEST_GROWTH = 32, 2.0
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """A mesh of the family that a scene may be solved on.
+
+    Attributes
+    ----------
+    columns : int
+        Columns of cells along a wavelength.
+    growth : float
+        Ratio of the heights of neighbouring rows.
+    """
+
+    columns: int
+    growth: float
+
+    def block(self, scene: Scene) -> Block:
+        """Mesh the block of a scene."""
+        numerics = scene.numerics
+        return Block.graded(
+            scene.road.wavelength,
+            scene.height,
+            self.columns,
+            scene.plane,
+            self.growth,
+            numerics.first_row,
+            numerics.dilatation,
+        )
+
+    def affordable(self, scene: Scene, finite: bool) -> bool:
+        """Return whether so fine a mesh may be solved."""
+        return not finite or self.columns * self.block(scene).rows <= MOST_CELLS
+
+    def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
+        """Return the mesh with cells smaller by ``factor`` in both directions."""
+        growth = max(1.0 + (self.growth - 1.0) / factor, _LEAST_GROWTH)
+        return Resolution(fit(scene, self.columns * factor, finite), growth)
+
+    def coarser(self, scene: Scene, finite: bool) -> Resolution:
+        """Return the mesh with cells about twice as large in both directions."""
+        least = max(_COARSEST_COLUMNS, 0.5 * COLUMNS_PER_HEIGHT / scene.aspect)
+        growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
+        return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
+
+
+def needed(scene: Scene, fraction: float, finite: bool) -> Resolution:
+    """Return the mesh that puts as many nodes as asked for into a contact of some fraction of the road."""
+    numerics = scene.numerics
+    nodes = numerics.finite_contact_nodes if finite else numerics.contact_nodes
+    least = numerics.finite_columns_min if finite else numerics.columns_min
+    columns = max(least, nodes / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
+    return Resolution(fit(scene, columns, finite), numerics.row_growth)
+
+
+def fit(scene: Scene, columns: float, finite: bool) -> int:
+    """Return about so many columns, fit for the mesh and for its transform, and no more than there may be."""
+    steps = int(next_fast_len(math.ceil(columns / COLUMN_STEP), real=True))
+    return min(COLUMN_STEP * steps, most_columns(scene, finite))
+
+
+def most_columns(scene: Scene, finite: bool) -> int:
+    """Return the most columns that a mesh may have."""
+    most = scene.numerics.columns_max
+    return min(most, MOST_FINITE) if finite else most

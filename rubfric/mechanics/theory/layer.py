@@ -1,0 +1,78 @@
+"""Closed forms that the simulation is verified against. Small strain; h = a sin(k x), q = k H.
+
+Nothing here needs a mesh. The compliance of the layer also serves the steady solver to choose a mesh.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rubfric.arrays import Complex, Real
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+
+# Beyond this q the layer is a half-space to the last digit, and sinh would only overflow later.
+_DEEP = 40.0
+
+
+def layer_factor(depth: ArrayLike) -> Real:
+    """Return f(q) = (sinh q cosh q - q) / cosh² q, the stiffness of the layer over that of the half-space.
+
+    The top carries uniform pressure and moves sideways as a whole.
+
+    Parameters
+    ----------
+    depth : array_like, shape (...)
+        q = wavenumber x height, dimensionless.
+    """
+    q = np.minimum(np.asarray(depth, dtype=float), _DEEP)
+    series = 2.0 * q**3 / 3.0  # the difference cancels to this where q is small
+    return np.where(q < 1e-3, series, np.sinh(q) * np.cosh(q) - q) / np.cosh(q) ** 2
+
+
+def layer_compliance(
+    material: Material, road: SineScale, velocity: float, height: float, plane: str, harmonics: ArrayLike
+) -> Complex:
+    """Return surface displacement over pressure, mm/MPa, of a layer that slides steadily, for each harmonic.
+
+    Harmonic n has wavenumber n k and frequency n k v: C_n = 2 / (n k E*(n k v) f(n k H)).
+
+    Parameters
+    ----------
+    height : float
+        H, mm.
+    velocity : float
+        v, mm/s.
+    harmonics : array_like of int, shape (n,)
+        All at least 1.
+    """
+    wavenumber = np.asarray(harmonics, dtype=float) * road.wavenumber
+    modulus = material.plane_modulus(wavenumber * velocity, plane)
+    return 2.0 / (wavenumber * modulus * layer_factor(wavenumber * height))
+
+
+def full_contact_pressure(material: Material, road: SineScale, velocity: float, height: float, plane: str) -> float:
+    """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2."""
+    compliance = layer_compliance(material, road, velocity, height, plane, [1])[0]
+    return float(road.amplitude / abs(compliance))
+
+
+def full_contact_friction(
+    material: Material, road: SineScale, velocity: float, pressure: float, height: float, plane: str
+) -> float:
+    """Return mu = f a² k² Im E*(k v) / (4 p), valid from ``full_contact_pressure`` on."""
+    compliance = layer_compliance(material, road, velocity, height, plane, [1])[0]
+    return float(road.amplitude * road.steepest_slope * (1.0 / compliance).imag / (2.0 * pressure))
+
+
+def westergaard_contact_fraction(pressure_ratio: ArrayLike) -> Real:
+    """Return the contact fraction A of an elastic half-space on a sine: sin²(pi A / 2) = p / p*.
+
+    Parameters
+    ----------
+    pressure_ratio : array_like, shape (...)
+        p / p*, with p* = E* k a / 2 the pressure of full contact.
+    """
+    ratio = np.clip(np.asarray(pressure_ratio, dtype=float), 0.0, 1.0)
+    return 2.0 / np.pi * np.arcsin(np.sqrt(ratio))

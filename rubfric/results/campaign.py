@@ -1,0 +1,148 @@
+"""All scenes of a campaign in one dataset over (scale, velocity, pressure, aspect)."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+from rubfric import __version__
+from rubfric.errors import BrokenResult
+from rubfric.results.dataset import CONVENTIONS, OTHER_SCENE, PAPER, load
+from rubfric.results.scalars import SCALARS, attributes
+
+AXES: dict[str, tuple[str, str]] = {
+    "scale": ("1", "scale of the road, 1 being the coarsest"),
+    "velocity": ("mm s-1", "sliding speed"),
+    "pressure": ("MPa", "nominal pressure"),
+    "aspect": ("1", "height of the block over its width"),
+}
+_ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
+_WARNINGS = "warnings"
+
+# A result's place on the axes, its scalars, what it shares with its campaign, and its road.
+_Found = tuple[tuple[float, ...], dict[str, float], dict[str, str], dict[str, float]]
+
+
+def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | None = None) -> xr.Dataset:
+    """Gather the scalars of scene results into one dataset; what was not run is NaN.
+
+    Parameters
+    ----------
+    paths : iterable of path-like
+        Files written by ``rubfric.write``.
+    digests : iterable of str, optional
+        ``Scene.digest`` of the scenes whose results they have to be, one for each.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions scale, velocity (mm/s), pressure (MPa), aspect; ``amplitude`` and ``wavenumber`` over scale.
+
+    Raises
+    ------
+    BrokenResult
+        For files that cannot be read or are of other scenes, all of them named; for two files of one scene; for
+        scenes that differ in rubber, plane or numerics.
+    """
+    files = [os.fspath(path) for path in paths]
+    found = _read_all(files, [None] * len(files) if digests is None else digests)
+    points: dict[tuple[float, ...], dict[str, float]] = {}
+    shared: dict[str, str] = {}
+    road: dict[float, dict[str, float]] = {}
+    for path, (point, values, common, scale) in zip(files, found, strict=True):
+        if point in points:
+            raise BrokenResult(f"{path} is a second result of its scene; keep one of them")
+        if shared and shared != common:
+            other = next(name for name in common if common[name] != shared[name])
+            raise BrokenResult(f"{path} has the {other} {common[other]}, but the results before it {shared[other]}")
+        if road.setdefault(point[0], scale) != scale:
+            raise BrokenResult(f"{path} has {scale} on scale {point[0]:g}, but another result {road[point[0]]}")
+        points[point], shared = values, common
+    if not points:
+        raise BrokenResult("there are no results to collect")
+    return _assemble(points, road, shared)
+
+
+def read(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Read what ``collect`` gathered, once it is in a file, whole into memory.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is missing, damaged, or no collection of results.
+    """
+    campaign = load(path)
+    if not {"friction_coefficient", *AXES} <= set(campaign.variables):
+        raise BrokenResult(f"{os.fspath(path)} is no collection of results; delete it and run again")
+    return campaign
+
+
+def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
+    """Read the scalars of all files; one error names every file that is no use."""
+    found, wrong = [], []
+    for path, digest in zip(files, digests, strict=True):
+        try:
+            found.append(_read_scalars(path, digest))
+        except BrokenResult as error:
+            wrong.append((path, str(error)))
+    if wrong:
+        paths = [path for path, _ in wrong]
+        again = "delete it and run again"
+        if len(paths) > 1:
+            again = f"{len(paths) - 1} more cannot be used either; delete them all and run again: rm {' '.join(paths)}"
+        raise BrokenResult(f"{wrong[0][1]}; {again}")
+    return found
+
+
+def _read_scalars(path: str, digest: str | None) -> _Found:
+    """Return a result's place on the axes, its scalars, what it shares with its campaign, and its road."""
+    try:
+        with netCDF4.Dataset(path) as stored:
+            stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
+            point = tuple(float(stored.getncattr(axis)) for axis in AXES)
+            values = {name: float(stored[name][...]) for name in SCALARS}
+            values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
+            common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
+            parameters = json.loads(stored.getncattr("scene_parameters"))
+            common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
+            road = {name: float(stored.getncattr(name)) for name in _ROAD}
+            other = digest is not None and stored.getncattr("scene_digest") != digest
+    except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
+        raise BrokenResult(f"{path} is no readable result: {error}") from error
+    if other:
+        raise BrokenResult(f"{path} {OTHER_SCENE}")
+    return point, values, common, road
+
+
+def _assemble(
+    points: dict[tuple[float, ...], dict[str, float]], road: dict[float, dict[str, float]], shared: dict[str, str]
+) -> xr.Dataset:
+    axes = {name: np.array(sorted({point[place] for point in points})) for place, name in enumerate(AXES)}
+    shape = tuple(len(axis) for axis in axes.values())
+    about_all = SCALARS | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
+    arrays = {name: np.full(shape, np.nan) for name in about_all}
+    for point, values in points.items():
+        index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), point, strict=True))
+        for name, value in values.items():
+            arrays[name][index] = value
+    coordinates = {name: (name, axis, attributes(*AXES[name])) for name, axis in axes.items()}
+    coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), attributes(*AXES["scale"]))
+    variables = {name: (tuple(AXES), array, attributes(*about_all[name])) for name, array in arrays.items()}
+    for name, about in _ROAD.items():
+        variables[name] = (
+            ("scale",),
+            np.array([road[scale][name] for scale in axes["scale"]]),
+            attributes(*about),
+        )
+    described = {
+        "title": "Friction of a rubber block over scale, speed, pressure and height-to-width ratio",
+        "Conventions": CONVENTIONS.split()[0],
+        "source": f"rubfric {__version__}",
+        "references": PAPER,
+    }
+    return xr.Dataset(variables, coords=coordinates, attrs=described | shared)

@@ -1,0 +1,240 @@
+"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and what it takes to redo it."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import rubfric
+from rubfric.arrays import Real
+from rubfric.errors import BrokenResult
+from rubfric.files import whole
+from rubfric.mechanics.steady.energies import Energies
+from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.results.scalars import SCALARS, attributes, scalars
+from rubfric.results.warnings import cautions, faint
+
+PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
+CONVENTIONS = "CF-1.11 UGRID-1.0"
+# What the error about a result of other parameters says.
+OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
+
+# Read once: looking versions up takes as long as a scene.
+_SOFTWARE = ", ".join(
+    [f"Python {platform.python_version()}"]
+    + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
+)
+
+
+def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.Dataset:
+    """Return the dataset of a solved scene.
+
+    Parameters
+    ----------
+    wall_time : float
+        Seconds that the solution and its energies took.
+
+    Returns
+    -------
+    xarray.Dataset
+        Mesh ``mesh`` (UGRID) with ``displacement_x``, ``displacement_y`` (mm) and ``strain_energy_density``
+        (MPa) at its nodes; ``contact_pressure``, ``local_contact_pressure`` (MPa), ``gap``, ``surface_position``
+        and ``road_height`` (mm) along ``surface_x``;
+        ``strain_energy_density_profile`` over ``depth``; the scalars of ``SCALARS``; the scene's parameters.
+    """
+    variables = _mesh(solution, energies) | _surface(solution)
+    variables |= {
+        name: ((), value, attributes(*SCALARS[name])) for name, value in scalars(solution, energies, wall_time).items()
+    }
+    return xr.Dataset(variables, attrs=_provenance(solution, energies))
+
+
+def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
+    """Return the mesh of the fields: every few columns of the one solved, and the first again at the far side."""
+    block = solution.block
+    shear = "" if solution.decision.kinematics == "finite" else ", without the mean shear that friction causes"
+    rows, columns = energies.density.shape
+    x = np.linspace(0.0, block.width, columns + 1)
+    place = {"mesh": "mesh", "location": "node"}
+    node = np.arange(rows * (columns + 1), dtype=np.int32).reshape(rows, columns + 1)
+    faces = np.stack((node[:-1, :-1], node[:-1, 1:], node[1:, 1:], node[1:, :-1]), axis=-1).reshape(-1, 4)
+
+    def around(field: Real) -> Real:
+        return np.concatenate((field, field[:, :1]), axis=1).ravel()
+
+    every = solution.block.columns // columns
+    topology = {
+        "cf_role": "mesh_topology",
+        "long_name": "rubber block in its reference configuration, one wavelength wide, repeating along x"
+        + (f"; every {every}th column of the mesh that was solved" if every > 1 else ""),
+        "units": "1",
+        "topology_dimension": 2,
+        "node_coordinates": "mesh_node_x mesh_node_y",
+        "face_node_connectivity": "mesh_face_nodes",
+    }
+    return {
+        "mesh": ((), np.int32(0), topology),
+        "mesh_node_x": (
+            "node",
+            np.tile(x, rows),
+            attributes("mm", "distance along the road"),
+        ),
+        "mesh_node_y": (
+            "node",
+            np.repeat(block.row_positions, columns + 1),
+            attributes("mm", "height above the bottom of the block"),
+        ),
+        "mesh_face_nodes": (
+            ("face", "corner"),
+            faces,
+            {
+                "cf_role": "face_node_connectivity",
+                "long_name": "nodes of each cell, counter-clockwise",
+                "units": "1",
+                "start_index": np.int32(0),
+            },
+        ),
+        "displacement_x": (
+            "node",
+            around(energies.displacement[:, 0]),
+            attributes("mm", "displacement along the road" + shear, **place),
+        ),
+        "displacement_y": (
+            "node",
+            around(energies.displacement[:, 1]),
+            attributes(
+                "mm",
+                "displacement away from the road; y + displacement_y is the height above the road's mean plane",
+                **place,
+            ),
+        ),
+        "strain_energy_density": (
+            "node",
+            around(energies.density),
+            attributes("MPa", "strain-energy density stored in the springs (1 MPa = 1 N mm mm-3)", **place),
+        ),
+        "depth": (
+            "depth",
+            block.row_positions,
+            attributes("mm", "distance from the bottom of the block", axis="Y", positive="up"),
+        ),
+        "strain_energy_density_profile": (
+            "depth",
+            energies.depth_profile,
+            attributes("MPa", "strain-energy density stored in the springs, mean over a wavelength"),
+        ),
+    }
+
+
+def _surface(solution: SteadySolution) -> dict[str, Any]:
+    block, road, contact = solution.block, solution.scene.road, solution.contact
+    x = block.column_positions
+    return {
+        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, of the block as it was made")),
+        "surface_position": (
+            "surface_x",
+            solution.surface_position,
+            attributes("mm", "distance along the road to which the surface has moved, where the gap is measured"),
+        ),
+        "road_height": ("surface_x", road.height(x), attributes("mm", "height of the road above its mean plane")),
+        "contact_pressure": (
+            "surface_x",
+            contact.pressure,
+            attributes("MPa", "vertical pressure of the road per area of the rubber as it was made"),
+        ),
+        "local_contact_pressure": (
+            "surface_x",
+            contact.pressure / solution.surface_stretch,
+            attributes("MPa", "normal pressure of the road per area of the deformed rubber"),
+        ),
+        "gap": ("surface_x", contact.gap, attributes("mm", "height of the rubber above the road")),
+    }
+
+
+def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
+    scene = solution.scene
+    attributes: dict[str, Any] = {
+        "title": f"Steady sliding of a rubber block on a sine road: {scene.name}",
+        "Conventions": CONVENTIONS,
+        "source": f"rubfric {rubfric.__version__}",
+        "references": PAPER,
+        "kinematics": scene.kinematics,
+        "kinematics_used": solution.decision.kinematics,
+        "kinematics_reason": solution.decision.reason,
+        "solver_history": "\n".join(solution.history),
+        "scene": scene.name,
+        "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
+        "scene_digest": scene.digest,
+        "rubber": scene.material.name,
+        "plane": scene.plane,
+        "software": _SOFTWARE,
+        "warnings": "\n".join(
+            [*cautions(solution, energies.closure), *faint(energies.stress_power, energies.resolution)]
+        ),
+    }
+    units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
+    attributes |= {name: getattr(scene, name) for name in units}
+    attributes |= {"amplitude": scene.road.amplitude, "wavenumber": scene.road.wavenumber}
+    attributes["units_of_attributes"] = "velocity mm s-1, pressure MPa, amplitude mm, wavenumber mm-1"
+    return attributes
+
+
+def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a dataset to a netCDF file, whole or not at all.
+
+    The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
+    name begins with a dot.
+
+    Raises
+    ------
+    NotWritten
+        Where the disk is full or the place is not writable; the message says what to do.
+    """
+    # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.
+    encoding = {
+        str(name): {"zlib": variable.size > 1, "complevel": 1}
+        | ({} if variable.dtype.kind == "f" and np.isnan(variable.values).any() else {"_FillValue": None})
+        for name, variable in result.variables.items()
+    }
+    with whole(path) as part:
+        try:
+            result.to_netcdf(part, engine="netcdf4", encoding=encoding)
+        except (OSError, RuntimeError):
+            part.write_bytes(bytes(2 * result.nbytes))  # netCDF does not say what the matter is; the system does
+            raise
+
+
+def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
+    """Read a result whole into memory.
+
+    Parameters
+    ----------
+    digest : str, optional
+        ``Scene.digest`` of the scene whose result it has to be.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is missing, damaged, no result of rubfric, or that of another scene.
+    """
+    result = load(path)
+    if "scene_digest" not in result.attrs:
+        raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
+    if digest not in (None, result.attrs["scene_digest"]):
+        raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; delete it and run again")
+    return result
+
+
+def load(path: str | os.PathLike[str]) -> xr.Dataset:
+    """Read any netCDF file whole into memory; BrokenResult where that cannot be."""
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as stored:
+            return stored.load()
+    except (OSError, ValueError, RuntimeError, AttributeError, KeyError) as error:
+        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error

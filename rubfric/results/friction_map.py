@@ -1,0 +1,152 @@
+"""Friction over speed and pressure, interpolated between the scenes of a campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.results.scales import total_error, total_friction
+
+Array = NDArray[np.float64]
+
+_VARIABLES = ("friction_coefficient", "friction_coefficient_error")
+
+
+@dataclass(frozen=True)
+class FrictionCurve:
+    """Friction over speed at one pressure.
+
+    Between the speeds of the campaign it is a piecewise cubic in the logarithm of speed that has no peaks of its own
+    (Fritsch and Carlson 1980). Below the slowest it falls to zero in proportion to speed, as that of any rubber that
+    relaxes does; a sled needs it there to start. Above the fastest it is held, and nothing should be read from it.
+
+    Attributes
+    ----------
+    speeds : numpy.ndarray, shape (speeds,)
+        Those of the campaign, mm/s, ascending.
+    friction, error : numpy.ndarray, shape (speeds,)
+        Friction coefficients there and their estimated absolute errors, dimensionless.
+    """
+
+    speeds: Array
+    friction: Array
+    error: Array
+
+    @cached_property
+    def _friction(self) -> Callable[[Array], Array]:
+        return _through(np.log(self.speeds), self.friction)
+
+    @cached_property
+    def _error(self) -> Callable[[Array], Array]:
+        return _through(np.log(self.speeds), self.error)
+
+    def __call__(self, speed: Any) -> Array:
+        """Return friction coefficients at speeds (mm/s, any shape)."""
+        return self._at(speed, self._friction)
+
+    def error_at(self, speed: Any) -> Array:
+        """Return the interpolated errors of the friction coefficients at speeds (mm/s, any shape)."""
+        return self._at(speed, self._error)
+
+    def _at(self, speed: Any, curve: Callable[[Array], Array]) -> Array:
+        slowest, fastest = self.speeds[0], self.speeds[-1]
+        inside = curve(np.log(np.clip(speed, slowest, fastest)))
+        return np.asarray(inside * np.minimum(np.asarray(speed) / slowest, 1.0))
+
+
+@dataclass(frozen=True)
+class FrictionMap:
+    """Friction over speed and pressure.
+
+    Attributes
+    ----------
+    speeds : numpy.ndarray, shape (speeds,)
+        mm/s, ascending.
+    pressures : numpy.ndarray, shape (pressures,)
+        Nominal, MPa, ascending.
+    friction, error : numpy.ndarray, shape (pressures, speeds)
+        Friction coefficients and their estimated absolute errors, dimensionless.
+    """
+
+    speeds: Array
+    pressures: Array
+    friction: Array
+    error: Array
+
+    @classmethod
+    def from_campaign(cls, campaign: xr.Dataset, aspect: float, scale: int | None = None) -> FrictionMap:
+        """Take the friction of one scale, or the sum over all, at one height-to-width ratio.
+
+        Speeds and pressures at which nothing was run are left out.
+
+        Parameters
+        ----------
+        campaign : xarray.Dataset
+            As gathered by ``rubfric.results.campaign.collect``.
+        aspect : float
+            Height over width of the blocks.
+        scale : int, optional
+            One scale of the road; the sum over all by default.
+
+        Raises
+        ------
+        InvalidInput
+            Where the campaign lacks the ratio or the scale, or has a gap.
+        BrokenResult
+            For a campaign without friction or its errors.
+        """
+        lacking = [name for name in _VARIABLES if name not in campaign]
+        if lacking:
+            raise BrokenResult(f"the campaign lacks {lacking[0]}: gather the results of its scenes again")
+        fields = [_chosen(campaign[name], aspect, scale) for name in _VARIABLES]
+        if scale is None:
+            fields = [total_friction(fields[0]), total_error(fields[1])]
+        friction, error = (field.transpose("pressure", "velocity").sortby(["pressure", "velocity"]) for field in fields)
+        friction = friction.dropna("pressure", how="all").dropna("velocity", how="all")
+        if friction.size == 0 or not bool(np.isfinite(friction.values).all()):
+            raise InvalidInput("the campaign has no friction at some of its speeds and pressures: run it whole")
+        error = error.sel(pressure=friction["pressure"], velocity=friction["velocity"])
+        return cls(friction["velocity"].values, friction["pressure"].values, friction.values, error.values)
+
+    def at(self, pressure: float) -> FrictionCurve:
+        """Return friction over speed at a pressure (MPa) of the campaign or in between; InvalidInput for any other."""
+        if not self.holds(pressure):
+            raise InvalidInput(
+                f"pressure is {pressure:g} MPa, but must lie within those simulated, "
+                f"{self.pressures[0]:g} to {self.pressures[-1]:g} MPa"
+            )
+        place = np.log(np.clip(pressure, self.pressures[0], self.pressures[-1]))
+        logs = np.log(self.pressures)
+        return FrictionCurve(self.speeds, _through(logs, self.friction)(place), _through(logs, self.error)(place))
+
+    def holds(self, pressure: float) -> bool:
+        """Return whether a pressure (MPa) lies within those of the campaign."""
+        return bool(self.pressures[0] * (1.0 - 1e-9) <= pressure <= self.pressures[-1] * (1.0 + 1e-9))
+
+
+def _chosen(field: xr.DataArray, aspect: float, scale: int | None) -> xr.DataArray:
+    """Return one ratio, and one scale where it is given."""
+    wanted = {"aspect": aspect} | ({} if scale is None else {"scale": scale})
+    for axis, value in wanted.items():
+        known = np.asarray(field[axis].values, dtype=np.float64)
+        found = np.flatnonzero(np.isclose(known, value, rtol=1e-9, atol=0.0))
+        if found.size == 0:
+            listed = ", ".join(f"{number:g}" for number in np.sort(known))
+            raise InvalidInput(f"{axis} is {value:g}, but the campaign has {listed}")
+        field = field.isel({axis: int(found[0])})
+    return field
+
+
+def _through(places: Array, values: Array) -> Callable[[Array], Array]:
+    """Return a monotone piecewise cubic through points along the first axis; a constant through one."""
+    if places.size == 1:
+        return lambda place: np.broadcast_to(values[0], np.shape(place) + values.shape[1:])
+    return PchipInterpolator(places, values, axis=0)

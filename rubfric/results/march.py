@@ -1,0 +1,126 @@
+"""The march of a scene as a dataset: every step, every wavelength, and the steady solver's friction to compare with."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import rubfric
+from rubfric.mechanics.march.result import Transient
+from rubfric.results.dataset import CONVENTIONS, PAPER
+from rubfric.results.scalars import attributes
+from rubfric.scene.procedure import PHASES
+from rubfric.scene.scene import Scene
+
+# record: (unit, long name)
+RECORDS: dict[str, tuple[str, str]] = {
+    "time": ("s", "time since pressing began"),
+    "slid": ("mm", "distance slid"),
+    "pressure": ("MPa", "nominal pressure"),
+    "phase": ("1", "phase of the procedure: " + ", ".join(f"{place} {name}" for place, name in enumerate(PHASES))),
+    "friction_contact": ("1", "friction coefficient from contact force, at the end of the step"),
+    "friction_work": ("1", "friction coefficient from the work of the road, mean of the step"),
+    "friction_energy": ("1", "friction coefficient from stored and dissipated energy, mean of the step"),
+    "stored_energy": ("N", "strain energy stored in the block, N mm per mm of thickness"),
+    "dissipated": ("N", "energy dissipated in the step, N mm per mm of thickness"),
+    "road_work": ("N", "work of the road in the step, N mm per mm of thickness"),
+    "load_work": ("N", "work of the load in the step, N mm per mm of thickness"),
+    "imbalance": ("N", "what the first law misses in the step, N mm per mm of thickness"),
+    "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
+    "top_displacement": ("mm", "mean displacement of the top away from the road"),
+    "iterations": ("1", "Newton steps or pivoting steps"),
+    "krylov": ("1", "applications of the tangent stiffness"),
+    "halvings": ("1", "how often the step was halved"),
+}
+_SCALARS: dict[str, tuple[str, str]] = {
+    "saturated": ("1", "1 where friction stayed within the tolerance for as long as the rubber remembers, else 0"),
+    "saturation_friction": ("1", "friction coefficient, mean over the last wavelength"),
+    "saturation_wavelengths": ("1", "wavelengths slid at full speed"),
+    "saturation_needed": ("1", "wavelengths over which friction has to stay the same"),
+    "saturation_variation": ("1", "relative variation of friction over as many wavelengths, or over all there are"),
+    "memory_wavelengths": ("1", "wavelengths that the slowest Prony branch remembers"),
+    "first_law_imbalance": ("1", "what the first law misses at full speed over the work of the road"),
+    "steady_friction_coefficient": ("1", "friction coefficient of steady sliding, solved directly"),
+    "wall_time": ("s", "wall time of all steps"),
+}
+
+
+def build(march: Transient, steady_friction: float) -> xr.Dataset:
+    """Return the dataset of a march.
+
+    Parameters
+    ----------
+    steady_friction : float
+        Friction coefficient of the same scene by the steady solver.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``RECORDS`` over ``step``, ``mean_friction`` (mean of the contact route) over ``wavelength``, scalars.
+    """
+    variables: dict[str, Any] = {
+        name: ("step", march.records[name], attributes(*described)) for name, described in RECORDS.items()
+    }
+    variables["phase"] = ("step", march.records["phase"].astype(np.int8), attributes(*RECORDS["phase"]))
+    means = march.means()
+    variables["mean_friction"] = (
+        "wavelength",
+        means,
+        attributes("1", "friction coefficient from contact force, mean over each wavelength at full speed"),
+    )
+    variables["wavelength"] = (
+        "wavelength",
+        np.arange(1, len(means) + 1),
+        attributes("1", "wavelengths slid at full speed"),
+    )
+    for name, value in _values(march, steady_friction).items():
+        variables[name] = ((), value, attributes(*_SCALARS[name]))
+    return xr.Dataset(variables, attrs=_provenance(march))
+
+
+def _values(march: Transient, steady_friction: float) -> dict[str, float | int]:
+    found = march.saturation
+    return {
+        "saturated": int(found.reached),
+        "saturation_friction": found.friction,
+        "saturation_wavelengths": found.wavelengths,
+        "saturation_needed": found.needed,
+        "saturation_variation": found.variation,
+        "memory_wavelengths": _memory(march.scene),
+        "first_law_imbalance": march.imbalance,
+        "steady_friction_coefficient": steady_friction,
+        "wall_time": march.seconds,
+    }
+
+
+def _memory(scene: Scene) -> float:
+    """Return the wavelengths that the slowest branch remembers, tau v / lambda."""
+    return max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
+
+
+def _provenance(march: Transient) -> dict[str, Any]:
+    scene = march.scene
+    return {
+        "title": f"Press and slide of a rubber block on a sine road: {scene.name}",
+        "Conventions": CONVENTIONS.split()[0],
+        "source": f"rubfric {rubfric.__version__}",
+        "references": PAPER,
+        "scene": scene.name,
+        "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
+        "scene_digest": scene.digest,
+        "procedure": json.dumps(asdict(march.procedure), sort_keys=True),
+        "rubber": scene.material.name,
+        "plane": scene.plane,
+        "kinematics_used": march.kinematics,
+        "velocity": scene.velocity,
+        "pressure": scene.pressure,
+        "scale": scene.scale,
+        "aspect": scene.aspect,
+        "wavelength_mm": scene.road.wavelength,
+        "steps_per_wavelength": march.procedure.steps_per_wavelength,
+        "saturation": str(march.saturation),
+    }

@@ -1,0 +1,100 @@
+"""Tables of a campaign, one row per scene, units in the headings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+import pandas as pd
+import xarray as xr
+
+from rubfric.errors import BrokenResult
+from rubfric.files import whole
+from rubfric.results.scales import total_error, total_friction
+
+# variable: heading
+_COLUMNS = {
+    "friction_coefficient": "friction_coefficient",
+    "friction_coefficient_error": "friction_coefficient_error",
+    "friction_coefficient_dissipation": "friction_coefficient_dissipation",
+    "friction_coefficient_contact": "friction_coefficient_contact",
+    "energy_closure": "energy_closure",
+    "contact_fraction": "contact_fraction",
+    "maximum_contact_pressure": "maximum_contact_pressure_MPa",
+    "maximum_local_contact_pressure": "maximum_local_contact_pressure_MPa",
+    "nominal_compression": "nominal_compression",
+    "finite_strain": "finite_strain",
+    "finite_strain_correction": "finite_strain_correction",
+    "effective_poissons_ratio": "effective_poissons_ratio",
+    "shear_wave_speed_ratio": "shear_wave_speed_ratio",
+    "meshes": "meshes",
+    "columns": "columns",
+    "rows": "rows",
+    "contact_nodes": "contact_nodes",
+    "warnings": "warnings",
+}
+_WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes", "warnings")
+_AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
+
+
+def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
+    """Return all scenes of one scale, by aspect, pressure and speed; BrokenResult if the campaign lacks a column."""
+    _check(campaign, *_COLUMNS)
+    chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
+    table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
+    table = table.astype(dict.fromkeys(_WHOLE, int))
+    return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
+
+
+def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
+    """Return the friction of every scale, their sum and a bound on its error, where all scales were run.
+
+    By pressure and speed; BrokenResult if the campaign lacks a column.
+    """
+    _check(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
+    friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
+    total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
+    error = total_error(campaign["friction_coefficient_error"].sel(aspect=aspect, drop=True))
+    total["friction_total_error"] = error.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
+    for scale in campaign["scale"].values:
+        one = friction.sel(scale=scale, drop=True)
+        total[f"friction_scale_{scale}"] = one.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
+    pressed = campaign["nominal_compression"].sel(aspect=aspect, drop=True).max("scale")
+    total["nominal_compression"] = pressed.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
+    table = total.dropna(subset=["friction_total"]).reset_index()
+    scales = [name for name in table.columns if name.startswith("friction_scale_")]
+    columns = ["velocity", "pressure", *scales, "friction_total", "friction_total_error", "nominal_compression"]
+    return table[columns].rename(columns=_AXES)
+
+
+def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:
+    """Return a table from a CSV file; an empty field, and nan, is a gap.
+
+    Parameters
+    ----------
+    path : path-like
+    words : sequence of str
+        Columns to keep as they are written, where the table has them: ``0.10`` stays ``0.10``, ``off`` is a word.
+
+    Raises
+    ------
+    BrokenResult
+        For a file that is no CSV table.
+    """
+    try:
+        return pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
+    except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
+        reason = " ".join(str(error).split())
+        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
+
+
+def _check(campaign: xr.Dataset, *variables: str) -> None:
+    lacking = [name for name in variables if name not in campaign]
+    if lacking:
+        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
+
+
+def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
+    """Write a table as CSV with six significant digits, whole or not at all."""
+    with whole(path) as part:
+        table.to_csv(part, index=False, float_format="%.6g")

@@ -1,0 +1,93 @@
+"""What a reader should know of a solved scene before trusting its numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rubfric.mechanics.steady.error import friction_error
+from rubfric.mechanics.steady.resolution import MOST_CELLS
+from rubfric.mechanics.steady.solution import SteadySolution
+
+# Above this share of the shear-wave speed inertia would matter; the model has none.
+_SPEED_LIMIT = 0.3
+# A stretch of the surface along the road of less than this is a fold in the making, which the mesh cannot follow.
+_FOLD_LIMIT = 0.1
+# The aim for the difference between the three friction coefficients, where no less accuracy was asked for.
+_CLOSURE_LIMIT = 0.01
+
+
+def cautions(solution: SteadySolution, closure: float) -> list[str]:
+    """Return what a reader should know before trusting the result, one sentence each; none is an error."""
+    scene = solution.scene
+    frequency = scene.road.excitation_frequency(scene.velocity)
+    poisson = float(scene.material.effective_poissons_ratio(frequency))
+    ratio = float(scene.velocity / scene.material.shear_wave_speed(frequency))
+    found = []
+    if poisson < 0.0:
+        found.append(
+            f"The effective Poisson's ratio is {poisson:.2f}: the shear modulus has risen past the constant bulk "
+            "modulus; bulk: proportional avoids this."
+        )
+    if ratio > _SPEED_LIMIT:
+        found.append(
+            f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter."
+        )
+    if solution.decision.kinematics == "small":
+        found += _small_strain(solution)
+    elif solution.surface_stretch.min() < _FOLD_LIMIT:
+        found.append("The surface is about to fold: finer meshes will differ.")
+    if closure > max(_CLOSURE_LIMIT, scene.numerics.accuracy):
+        found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
+    found += _inaccurate(solution)
+    if not solution.resolved:
+        more = "raise numerics.columns_max"
+        if solution.block.columns < scene.numerics.columns_max:
+            more = "a mesh in finite strain has no more columns"
+        touching = np.count_nonzero(solution.contact.touching)
+        found.append(f"Only {touching} surface nodes touch the road, fewer than asked for: {more}.")
+    return found
+
+
+def _inaccurate(solution: SteadySolution) -> list[str]:
+    """Return that the accuracy asked for was not met, if so, and what would help."""
+    friction, error = abs(solution.friction.stress_power), friction_error(solution)
+    if error <= solution.scene.numerics.accuracy * friction or friction <= solution.friction.resolution:
+        return []
+    return [
+        f"The accuracy asked for, {solution.scene.numerics.accuracy:.2%}, is not met: the estimated error is "
+        f"{error / friction:.2%} after {len(solution.meshes)} meshes; {_remedy(solution)}."
+    ]
+
+
+def _remedy(solution: SteadySolution) -> str:
+    """Return what would make a scene more accurate."""
+    if len(solution.meshes) > solution.scene.numerics.refinements + 1:
+        return "raise numerics.refinements"
+    if solution.decision.kinematics == "finite":
+        return f"finite strain takes no mesh of more than {MOST_CELLS} cells"
+    return "raise numerics.refinements or numerics.columns_max"
+
+
+def faint(friction: float, resolution: float) -> list[str]:
+    """Return what to know of friction that the solver cannot tell from zero, where there is any; both dimensionless."""
+    if not 0.0 < friction < resolution:
+        return []
+    return [
+        f"Friction is below {resolution:.1g}, which the solver cannot tell from zero: only its smallness is certain."
+    ]
+
+
+def _small_strain(solution: SteadySolution) -> list[str]:
+    """Return what small strain does to a scene that asked for it; nothing where it is accurate enough."""
+    scene, correction = solution.scene, solution.decision.correction
+    if solution.compression >= 1.0:
+        return [
+            f"The load presses the block by {solution.compression:.0%} of its height, which small strain cannot mean: "
+            "the number is no prediction; kinematics: finite gives one."
+        ]
+    if correction > scene.numerics.accuracy:
+        return [
+            f"Finite strain may change friction by up to {correction:.1%} (nominal compression "
+            f"{solution.compression:.1%}, slope {scene.road.steepest_slope:.2g}): small strain is only indicative here."
+        ]
+    return []

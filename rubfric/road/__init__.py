@@ -1,0 +1,1 @@
+"""Roads: height, slope and curvature of the rigid profile."""

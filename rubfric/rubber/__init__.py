@@ -1,0 +1,1 @@
+"""Rubber: its moduli over frequency, its relaxation, and which branches a scene needs."""

@@ -1,0 +1,1 @@
+"""What Snakemake needs: jobs, reruns, progress and the log of a run."""

@@ -1,0 +1,106 @@
+"""Which files of the package a module is made of: what a result depends on, found in its import statements."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import os
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from rubfric.files import whole
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+@cache
+def sources(*modules: str) -> tuple[Path, ...]:
+    """Return the package's files that importing ``modules`` runs, sorted; absolute paths.
+
+    Imports inside functions count. The package's own ``__init__`` imports nothing and never counts.
+
+    Parameters
+    ----------
+    *modules : str
+        Dotted names such as ``rubfric.simulation``.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        For a name that is no module of the package.
+    """
+    found: set[Path] = set()
+    waiting = [_file(module) for module in modules]
+    while waiting:
+        path = waiting.pop()
+        if path in found:
+            continue
+        found.add(path)
+        waiting.extend(_imported(path))
+    return tuple(sorted(found))
+
+
+@cache
+def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
+    """Keep a file in ``folder`` that stands for all ``sources(*modules)``, and return its path.
+
+    It holds their digests, and is written anew when one of them has changed: for Snakemake one input that changes with
+    any of them, so that a campaign of many scenes has one file a scene to look after, not fifty. Where it is missing it
+    gets the age of the youngest of them, and what was made since stays up to date.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        For a name that is no module of the package.
+    NotWritten
+        Where the file cannot be written.
+    """
+    paths, place = sources(*modules), Path(folder, "+".join(modules))
+    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in paths]
+    text = "\n".join(lines) + "\n"
+    known = place.read_text(encoding="utf-8", errors="replace") if place.exists() else None
+    if known != text:
+        with whole(place) as part:
+            part.write_text(text, encoding="utf-8")
+            if known is None:
+                age = max(path.stat().st_mtime_ns for path in paths)
+                os.utime(part, ns=(age, age))
+    return str(place)
+
+
+def _file(module: str) -> Path:
+    path = _find(module)
+    if path is None:
+        raise ModuleNotFoundError(f"{module} is no module of rubfric", name=module)
+    return path
+
+
+def _find(module: str) -> Path | None:
+    """Return the file of a module of the package; None for any other name, and for the package itself."""
+    first, *rest = module.split(".")
+    if first != _PACKAGE.name or not rest:
+        return None
+    base = _PACKAGE.joinpath(*rest)
+    candidates = (base.with_suffix(".py"), base / "__init__.py")
+    return next((path for path in candidates if path.is_file()), None)
+
+
+@cache
+def _imported(path: Path) -> list[Path]:
+    names: list[str] = []
+    for node in _statements(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            # "from rubfric import dataset" names a module, "from rubfric.simulation import evaluate" does not.
+            names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+    return [found for found in map(_find, names) if found is not None]
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements below a node, not their expressions, which are many and import nothing."""
+    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for statement in getattr(node, part, ()):
+            yield statement
+            yield from _statements(statement)

@@ -1,0 +1,88 @@
+"""Friction that others are judged by: three meshes of one family, each finer than the default, and their extrapolation.
+
+The bound on its error counts what the finest mesh changed, what extrapolation adds, and how far the routes to
+friction are apart on the finest mesh. Branches are not folded, and finite strain is solved to round-off.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+from rubfric.config.presets import fineness
+from rubfric.mechanics.finite.steady import FiniteSolver
+from rubfric.mechanics.small.steady import SmallSolver
+from rubfric.mechanics.steady.refinement import steps_to
+from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
+from rubfric.mechanics.steady.solution import Friction
+from rubfric.mechanics.theory.kinematics import decide
+from rubfric.scene.scene import Numerics, Scene
+
+# Fineness of the three meshes (``rubfric.config.presets``).
+_FINENESS = {"small": (2.0, 3.0, 4.5), "finite": (1.4, 2.0, 2.8)}
+# Order by which three meshes that approach a limit steadily are extrapolated: the least that is observed there.
+_ORDER = 2.0
+_BASE = Numerics(**fineness(1.0), refinements=0, folding=0.0, tolerance=1e-9, columns_max=65536)
+
+
+@dataclass(frozen=True)
+class Converged:
+    """The friction coefficient of a scene, and what it may be wrong by.
+
+    Attributes
+    ----------
+    friction : float
+        Dimensionless.
+    error : float
+        Bound on its error, absolute.
+    columns, rows : int
+        The finest mesh.
+    kinematics : {"small", "finite"}
+    """
+
+    friction: float
+    error: float
+    columns: int
+    rows: int
+    kinematics: str
+
+
+def converge(scene: Scene) -> Converged:
+    """Return the friction of a scene of the model that it asks for: finite strain, unless it asks for small strain.
+
+    Raises
+    ------
+    NotConverged
+        From the solver.
+    """
+    kinematics = "small" if scene.kinematics == "small" else "finite"
+    scene = dataclasses.replace(scene, kinematics=kinematics, numerics=_numerics(scene))
+    solver = SmallSolver(scene, decide(scene)) if kinematics == "small" else FiniteSolver(scene, decide(scene))
+    solution = steps_to(scene, solver, [])
+    found: list[Friction] = []
+    for finer in _FINENESS[kinematics]:
+        target = needed(scene, solution.contact_fraction, solver.finite)
+        growth = 1.0 + (target.growth - 1.0) / finer
+        columns = target.finer(scene, finer, solver.finite).columns
+        solution = solver.solve(Resolution(columns, growth))
+        found.append(solution.friction)
+    friction, error = _limit(found)
+    capped = solution.block.columns == most_columns(scene, solver.finite)
+    return Converged(
+        friction, (2.0 if capped else 1.0) * error, solution.block.columns, solution.block.rows, kinematics
+    )
+
+
+def _numerics(scene: Scene) -> Numerics:
+    return dataclasses.replace(_BASE, dilatation=scene.numerics.dilatation, first_row=scene.numerics.first_row)
+
+
+def _limit(found: list[Friction]) -> tuple[float, float]:
+    """Return the limit of three meshes, each finer by about 1.45, and a bound on its error."""
+    first, second, third = ((route.stress_power + route.contact) / 2.0 for route in found)
+    routes = abs(found[-1].stress_power - found[-1].contact)
+    before, last = second - first, third - second
+    limit = third
+    if 0.0 < last * before < before * before:  # steadily nearer
+        limit += last / (1.45**_ORDER - 1.0)
+    return limit, max(abs(last), abs(limit - third), 0.5 * routes) + found[-1].resolution

@@ -1,0 +1,151 @@
+"""Ways to a solution: at once, along a growing road, along a growing load; every try recorded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from finite_fields import AMPLITUDE, coarse, everywhere, flat, road, sliding
+
+from rubfric.errors import NotConverged
+from rubfric.mechanics.finite import continuation
+from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
+from rubfric.mechanics.finite.newton import Solved, Stalled, newton
+
+PRESSURE, TOLERANCE = 0.5, 1e-8
+ROAD = road(PRESSURE)
+
+Stall = Callable[[Road], bool]
+
+
+@pytest.fixture
+def problem() -> SlidingContact:
+    return sliding(coarse("strain"))
+
+
+@pytest.fixture
+def pressed(problem: SlidingContact) -> Start:
+    return Start(flat(problem.finite, PRESSURE), everywhere(problem.finite))
+
+
+@pytest.fixture
+def stalling(monkeypatch: pytest.MonkeyPatch) -> Callable[[Stall], list[Road]]:
+    """Return a function that lets Newton's method stall where told, and returns the list of roads that are tried."""
+
+    def arrange(stalls: Stall) -> list[Road]:
+        tried: list[Road] = []
+
+        def sometimes(problem: SlidingContact, start: object, road: Road, *rest: object) -> Solved:
+            tried.append(road)
+            if stalls(road):
+                raise Stalled("no luck", 2, 9, 0.5)
+            return newton(problem, start, road, *rest)
+
+        monkeypatch.setattr(continuation, "newton", sometimes)
+        return tried
+
+    return arrange
+
+
+def only_the_first(number: int) -> Stall:
+    left = [number]
+
+    def stalls(_: Road) -> bool:
+        left[0] -= 1
+        return left[0] >= 0
+
+    return stalls
+
+
+def test_easy_contact_is_reached_at_once(problem: SlidingContact, pressed: Start) -> None:
+    history = History()
+    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    assert problem.size(solved.correction.step) <= TOLERANCE
+    (line,) = history.lines
+    assert line == (f"16 columns, at once: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
+    assert (history.steps, history.krylov) == (solved.steps, solved.krylov)
+
+
+def test_road_is_raised_where_newton_stalls(
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+) -> None:
+    expected = newton(problem, pressed.fields, ROAD, pressed.touching, TOLERANCE)
+    tried, history = stalling(only_the_first(1)), History()
+    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
+    amplitudes = [road.amplitude for road in tried[1:]]
+    assert tried[0] == tried[-1] == ROAD
+    assert len(amplitudes) > 1
+    assert np.all(np.diff(amplitudes) > 0.0)
+    assert {road.pressure for road in tried} == {PRESSURE}
+    assert history.lines[0] == "16 columns, at once: left after 2 Newton steps, no luck"
+    assert all(re.match(r"16 columns, road at [\d.]+: converged in \d+ ", line) for line in history.lines[1:])
+    assert history.lines[-1].startswith("16 columns, road at 1: ")
+
+
+def test_steps_are_shortened_where_they_stall(
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+) -> None:
+    tried, history = stalling(only_the_first(3)), History()
+    reach(problem, pressed, ROAD, TOLERANCE, history)
+    assert tried[1].amplitude > tried[2].amplitude > tried[3].amplitude
+    assert [" left after 2 Newton steps, no luck" in line for line in history.lines[:4]] == [True, True, True, False]
+    assert tried[-1] == ROAD
+
+
+def test_load_is_raised_where_the_road_cannot_be(
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+) -> None:
+    expected = newton(problem, pressed.fields, ROAD, pressed.touching, TOLERANCE)
+    loads: list[float] = []
+
+    def not_before_lighter(road: Road) -> bool:
+        loads.append(road.pressure)
+        return road.pressure == PRESSURE and min(loads) == PRESSURE
+
+    tried, history = stalling(not_before_lighter), History()
+    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
+    lighter = [road for road in tried if road.pressure < PRESSURE]
+    assert lighter[0].amplitude < AMPLITUDE
+    assert any(road.amplitude == AMPLITUDE for road in lighter)
+    assert tried[-1] == ROAD
+    assert history.lines[-1].startswith("16 columns, load at 1: converged in ")
+
+
+def test_all_ways_stalled_is_an_error_with_the_scenes_name(
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+) -> None:
+    tried, history = stalling(lambda _: True), History()
+    sentence = (
+        r"^some scene: not converged after \d+ steps, distance from .* is 0\.5; every way to a solution stalls: "
+        r"the road may be too steep, or the load too heavy, for the rubber$"
+    )
+    with pytest.raises(NotConverged, match=sentence) as caught:
+        reach(problem, pressed, ROAD, TOLERANCE, history)
+    assert caught.value.step == history.steps == 2 * len(tried)
+    assert history.krylov == 9 * len(tried)
+    assert len(history.lines) == len(tried)
+    assert {road.pressure == PRESSURE for road in tried} == {True, False}
+
+
+def test_attempt_records_a_failure_and_passes_it_on(
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+) -> None:
+    stalling(lambda _: True)
+    history = History()
+    with pytest.raises(Stalled, match="no luck"):
+        attempt(problem, pressed, ROAD, TOLERANCE, history, "a try")
+    assert history.lines == ["a try: left after 2 Newton steps, no luck"]
+    assert (history.steps, history.krylov) == (2, 9)
+
+
+def test_history_adds_up(problem: SlidingContact, pressed: Start) -> None:
+    history = History()
+    first, second = (attempt(problem, pressed, ROAD, tolerance, history, "a try") for tolerance in (1e-2, 1e-6))
+    assert history.steps == first.steps + second.steps
+    assert history.krylov == first.krylov + second.krylov
+    assert len(history.lines) == 2

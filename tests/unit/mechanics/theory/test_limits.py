@@ -1,0 +1,112 @@
+"""Contacts too light for a mesh are refused, with the lightest pressure that is not."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rubfric.errors import InvalidInput, NotConverged
+from rubfric.marching import march
+from rubfric.mechanics.theory.limits import (
+    estimated_fraction,
+    fewest_nodes,
+    near_crest,
+    require_columns,
+    require_height,
+    require_resolvable,
+    require_resolved,
+)
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.scene.scene import Numerics, Scene
+from rubfric.simulation import simulate
+
+RUBBER = Material("plain", 4.17, 0.49, (0.5,), (1e-3,))
+SCENE = Scene(1, SineScale(0.015, 35.0), 1.0, 0.5, 0.75, RUBBER)
+
+
+def at(pressure: float, **changes: object) -> Scene:
+    return replace(SCENE, pressure=pressure, **changes)  # type: ignore[arg-type]
+
+
+def test_fraction_is_one_on_a_filled_and_on_a_flat_road() -> None:
+    assert estimated_fraction(at(100.0)) == 1.0
+    assert estimated_fraction(replace(SCENE, road=SineScale(0.0, 35.0))) == 1.0
+
+
+def test_fraction_grows_as_the_root_of_a_light_load() -> None:
+    assert estimated_fraction(at(1e-4)) == pytest.approx(10.0 * estimated_fraction(at(1e-6)), rel=1e-3)
+
+
+@pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.5, 1.0, 3.0])
+def test_nodes_near_the_crest_are_where_the_road_is_highest(fraction: float) -> None:
+    flags = near_crest(64, fraction)
+    height = np.sin(2.0 * np.pi * np.arange(64) / 64)
+    assert flags.any()
+    assert flags[np.argmax(height)]
+    assert flags.sum() == pytest.approx(64 * min(fraction, 1.0), abs=1.0)
+    if not flags.all():
+        assert height[flags].min() >= height[~flags].max() - 1e-12
+
+
+def test_the_pressure_that_a_refusal_names_is_allowed_and_a_lighter_one_is_not() -> None:
+    with pytest.raises(InvalidInput, match="do this instead") as refused:
+        require_resolvable(at(1e-9), 4096, "do this instead")
+    named = re.search(r"at least (\S+) MPa", str(refused.value))
+    assert named is not None
+    require_resolvable(at(1.05 * float(named[1])), 4096, "")
+    with pytest.raises(InvalidInput, match="fewer than 8 surface nodes"):
+        require_resolvable(at(0.9 * float(named[1])), 4096, "")
+
+
+def test_columns_that_a_refused_march_is_told_to_take_are_enough() -> None:
+    with pytest.raises(InvalidInput, match=r"procedure\.columns is 32") as refused:
+        require_columns(at(1e-5), 32, 2.0)
+    named = re.search(r"at least (\d+)", str(refused.value))
+    assert named is not None
+    require_columns(at(1e-5), int(named[1]), 2.0)
+
+
+def test_contact_of_few_nodes_is_no_result() -> None:
+    touching = np.arange(256) < 8
+    require_resolved(SCENE, touching, 3, "")
+    with pytest.raises(
+        NotConverged, match=r"surface nodes in contact, out of 256, is 7; at least 8 make a prediction: .*do this"
+    ):
+        require_resolved(SCENE, touching & (np.arange(256) > 0), 3, "do this")
+
+
+def test_whoever_asks_for_fewer_nodes_gets_them() -> None:
+    few = replace(SCENE, numerics=Numerics(finite_contact_nodes=4))
+    assert (fewest_nodes(SCENE), fewest_nodes(few)) == (8, 4)
+    require_resolved(few, np.arange(256) < 4, 3, "")
+
+
+@pytest.mark.parametrize(
+    ("kinematics", "way"), [("finite", "kinematics: small"), ("small", "numerics.columns_max allows")]
+)
+def test_simulation_refuses_before_it_solves(kinematics: str, way: str) -> None:
+    with pytest.raises(InvalidInput, match=f"pressure of .* is 1e-12 MPa, but must be at least .*{way}"):
+        simulate(at(1e-12, kinematics=kinematics))
+
+
+@pytest.mark.parametrize("plane", ["stress", "strain"])
+def test_the_pressure_that_a_flattened_block_is_told_of_is_allowed_and_a_heavier_one_is_not(plane: str) -> None:
+    with pytest.raises(InvalidInput, match="of the height of the relaxed block") as refused:
+        require_height(at(1e3, plane=plane))
+    named = re.search(r"at most (\S+) MPa", str(refused.value))
+    assert named is not None
+    require_height(at(0.99 * float(named[1]), plane=plane))
+    with pytest.raises(InvalidInput, match="no rubber any more"):
+        require_height(at(1.01 * float(named[1]), plane=plane))
+
+
+@pytest.mark.parametrize("plane", ["stress", "strain"])
+def test_flattened_block_is_refused_steady_and_in_time(plane: str) -> None:
+    flattened = at(1e3, plane=plane, kinematics="finite")
+    for slide in (simulate, march):
+        with pytest.raises(InvalidInput, match="but must be at most"):
+            slide(flattened)

@@ -1,0 +1,107 @@
+"""The page is one file that holds everything, and names cannot change what it is."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Callable
+from fnmatch import fnmatch
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rubfric
+from rubfric.figures import style
+from rubfric.pages.explorer.assets import assets
+from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.page import page, write_page
+from rubfric.pages.explorer.palette import palette
+
+CampaignMaker = Callable[..., xr.Dataset]
+NAME = "</script><img src=x onerror=alert(1)> & $title"
+
+
+class Reader(HTMLParser):
+    """What a browser finds in a page: its elements, addresses and the text of the payload."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.addresses: list[str] = []
+        self.open: str | None = None
+        self.text: dict[str, str] = {}
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.addresses += [value or "" for name, value in attrs if name in ("src", "href")]
+        self.open = dict(attrs).get("id") or tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open:
+            self.text[self.open] = self.text.get(self.open, "") + data
+
+
+@pytest.fixture(scope="module")
+def read(make_campaign: CampaignMaker) -> Reader:
+    reader = Reader()
+    reader.feed(page(payload(make_campaign().assign_attrs(rubber=NAME), [], 0.75, "road")))
+    return reader
+
+
+def test_page_refers_to_nothing_outside(read: Reader) -> None:
+    assert read.addresses == ["data:,"]
+    assert read.tags.count("script") == 3
+    assert read.tags.count("noscript") == 1
+    assert not {"img", "iframe", "object", "embed"} & set(read.tags)
+
+
+def test_names_stay_words(read: Reader) -> None:
+    assert json.loads(read.text["payload"])["about"]["rubber"] == NAME
+    assert read.text["title"].strip() == f"Friction of rubber {NAME} on road road"
+
+
+def test_every_asset_is_packaged() -> None:
+    root = Path(rubfric.__file__).resolve().parents[1]
+    patterns = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["rubfric"]
+    folder = root / "rubfric"
+    assert assets()
+    for path in assets():
+        assert any(fnmatch(path.relative_to(folder).as_posix(), pattern) for pattern in patterns)
+    others = [path for path in (folder / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")]
+    assert sorted(others) == sorted(assets())
+
+
+@pytest.mark.parametrize("path", [path for path in assets() if path.suffix == ".js"], ids=lambda path: path.stem)
+def test_scripts_are_short_and_make_no_markup_of_words(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 260
+    assert not re.search(
+        r"innerHTML|insertAdjacentHTML|document\.write|\beval\(|https?://(?!www\.w3\.org/2000/svg)", text
+    )
+
+
+def test_page_is_written_whole(make_campaign: CampaignMaker, tmp_path: Path) -> None:
+    write_page(payload(make_campaign(), [], 0.75, "road"), tmp_path / "sub" / "page.html")
+    assert [path.name for path in (tmp_path / "sub").iterdir()] == ["page.html"]
+    assert (tmp_path / "sub" / "page.html").read_text(encoding="utf-8").startswith("<!doctype html>")
+
+
+def test_same_campaign_gives_the_same_page(make_campaign: CampaignMaker) -> None:
+    assert page(payload(make_campaign(), [], 0.75, "road")) == page(payload(make_campaign(), [], 0.75, "road"))
+
+
+@pytest.mark.parametrize("count", [1, 2, 6, 11])
+def test_colours_are_those_of_the_figures(count: int) -> None:
+    found = [
+        [int(colour[place : place + 2], 16) / 255 for place in (1, 3, 5)] for colour in palette(count, 4)["pressures"]
+    ]
+    wanted = [colour[:3] for colour in style.colours(count)]
+    assert np.abs(np.array(found) - np.array(wanted)).max() < 0.03
+    kinds = {look["color"] for look in style.kinds(10)}
+    assert set(palette(1, 9)["scales"]) <= kinds
+    assert len(set(palette(1, 9)["scales"])) == 9
+    assert len(palette(1, 12)["scales"]) == 12

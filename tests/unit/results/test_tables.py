@@ -1,0 +1,176 @@
+"""Tables of a campaign: one row per scene, in order, units in the headings."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from rubfric.errors import BrokenResult
+from rubfric.results.scalars import SCALARS
+from rubfric.results.tables import read_table, scale_table, total_table, write_table
+
+SCALES, VELOCITIES, PRESSURES, ASPECTS = (1, 2), (0.1, 100.0, 10000.0), (0.5, 5.0), (0.5, 0.75)
+
+
+def mu(scale: int, velocity: float, pressure: float, aspect: float) -> float:
+    """Return a friction coefficient that tells its scene."""
+    return 0.1 * scale + 1e-5 * velocity + 0.01 * pressure + aspect
+
+
+@pytest.fixture
+def campaign() -> xr.Dataset:
+    """Return every scene at aspect 0.75, and at aspect 0.5 scale 1 at 5 MPa only."""
+    axes = {"scale": SCALES, "velocity": VELOCITIES, "pressure": PRESSURES, "aspect": ASPECTS}
+    shape = tuple(len(axis) for axis in axes.values())
+    friction = np.array([mu(*point) for point in product(*axes.values())]).reshape(shape)
+    friction[:, :, 0, 0] = np.nan
+    friction[1, :, :, 0] = np.nan
+    scalars = {name: (tuple(axes), np.where(np.isnan(friction), np.nan, 3.0)) for name in (*SCALARS, "warnings")}
+    scalars["friction_coefficient"] = (tuple(axes), friction)
+    scalars["friction_coefficient_error"] = (tuple(axes), 0.01 * friction)
+    return xr.Dataset(scalars, coords={name: list(axis) for name, axis in axes.items()})
+
+
+def test_headings_name_units_where_there_are_any(campaign: xr.Dataset) -> None:
+    assert list(scale_table(campaign, 1).columns) == [
+        "velocity_mm_per_s",
+        "pressure_MPa",
+        "aspect",
+        "friction_coefficient",
+        "friction_coefficient_error",
+        "friction_coefficient_dissipation",
+        "friction_coefficient_contact",
+        "energy_closure",
+        "contact_fraction",
+        "maximum_contact_pressure_MPa",
+        "maximum_local_contact_pressure_MPa",
+        "nominal_compression",
+        "finite_strain",
+        "finite_strain_correction",
+        "effective_poissons_ratio",
+        "shear_wave_speed_ratio",
+        "meshes",
+        "columns",
+        "rows",
+        "contact_nodes",
+        "warnings",
+    ]
+
+
+def test_scale_table_holds_every_scene_that_was_run(campaign: xr.Dataset) -> None:
+    table = scale_table(campaign, 1)
+    points = [(v, 5.0, 0.5) for v in VELOCITIES] + [(v, p, 0.75) for p in PRESSURES for v in VELOCITIES]
+    assert list(table[["velocity_mm_per_s", "pressure_MPa", "aspect"]].itertuples(index=False, name=None)) == points
+    assert table["friction_coefficient"].tolist() == [mu(1, *point) for point in points]
+    assert len(scale_table(campaign, 2)) == 6
+
+
+def test_counts_are_whole_numbers(campaign: xr.Dataset) -> None:
+    table = scale_table(campaign, 1)
+    for name in ("meshes", "columns", "rows", "contact_nodes", "warnings"):
+        assert table[name].tolist() == [3] * 9
+        assert table[name].dtype.kind == "i"
+
+
+def test_total_table_adds_up_its_scales(campaign: xr.Dataset) -> None:
+    table = total_table(campaign, 0.75)
+    assert list(table.columns) == [
+        "velocity_mm_per_s",
+        "pressure_MPa",
+        "friction_scale_1",
+        "friction_scale_2",
+        "friction_total",
+        "friction_total_error",
+        "nominal_compression",
+    ]
+    places = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
+    assert places == list(product(PRESSURES, VELOCITIES))
+    assert table["friction_scale_2"].tolist() == [mu(2, v, p, 0.75) for p, v in places]
+    np.testing.assert_allclose(
+        table["friction_total"], table["friction_scale_1"] + table["friction_scale_2"], rtol=1e-15
+    )
+
+
+def test_tables_carry_the_errors(campaign: xr.Dataset) -> None:
+    for scale in SCALES:
+        table = scale_table(campaign, scale)
+        np.testing.assert_allclose(table["friction_coefficient_error"], 0.01 * table["friction_coefficient"])
+    total = total_table(campaign, 0.75)
+    np.testing.assert_allclose(total["friction_total_error"], 0.01 * total["friction_total"])
+
+
+def test_unknown_error_hides_no_friction(campaign: xr.Dataset) -> None:
+    place = {"scale": 2, "velocity": 100.0, "pressure": 5.0, "aspect": 0.75}
+    campaign["friction_coefficient_error"].loc[place] = np.nan
+    table = total_table(campaign, 0.75)
+    assert len(table) == 6
+    unknown = table[table["friction_total_error"].isna()]
+    assert unknown[["velocity_mm_per_s", "pressure_MPa"]].to_numpy().tolist() == [[100.0, 5.0]]
+    assert unknown["friction_total"].item() == pytest.approx(mu(1, 100.0, 5.0, 0.75) + mu(2, 100.0, 5.0, 0.75))
+
+
+def test_campaign_of_an_earlier_version_is_refused(campaign: xr.Dataset) -> None:
+    older = campaign.drop_vars("friction_coefficient_error")
+    complaint = r"^the campaign lacks friction_coefficient_error: gather the results of its scenes again$"
+    with pytest.raises(BrokenResult, match=complaint):
+        scale_table(older, 1)
+    with pytest.raises(BrokenResult, match=complaint):
+        total_table(older, 0.75)
+
+
+def test_total_table_leaves_out_what_lacks_a_scale(campaign: xr.Dataset) -> None:
+    campaign["friction_coefficient"].loc[{"scale": 2, "velocity": 100.0, "pressure": 5.0, "aspect": 0.75}] = np.nan
+    table = total_table(campaign, 0.75)
+    assert len(table) == 5
+    assert (100.0, 5.0) not in set(zip(table["velocity_mm_per_s"], table["pressure_MPa"], strict=True))
+    assert total_table(campaign, 0.5).empty
+
+
+def test_table_reads_back_with_six_digits(campaign: xr.Dataset, tmp_path: Path) -> None:
+    table = scale_table(campaign, 1)
+    target = tmp_path / "tables" / "one.csv"
+    write_table(table, target)
+    pd.testing.assert_frame_equal(pd.read_csv(target), table, rtol=1e-5, check_dtype=False)
+    assert target.read_text().splitlines()[1].startswith("0.1,5,0.5,0.650001,0.00650001,3,")
+    assert [path.name for path in target.parent.iterdir()] == ["one.csv"]
+
+
+def test_interrupted_write_keeps_the_older_table(
+    campaign: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(_: pd.DataFrame, path: Path, **__: object) -> None:
+        path.write_text("velocity_mm_per_s,pre")
+        raise OSError("no space left on device")
+
+    target = tmp_path / "one.csv"
+    target.write_text("older")
+    monkeypatch.setattr(pd.DataFrame, "to_csv", stop)
+    with pytest.raises(OSError, match="no space left"):
+        write_table(scale_table(campaign, 1), target)
+    assert [path.name for path in tmp_path.iterdir()] == ["one.csv"]
+    assert target.read_text() == "older"
+
+
+def test_words_and_gaps_of_a_table_are_read_as_they_are_written(tmp_path: Path) -> None:
+    source = tmp_path / "ladder.csv"
+    source.write_text('rung,error,covered,note\n0.10,0.5,True,\nnone,nan,False,"slow, but right"\n')
+    table = read_table(source, ["rung", "note", "absent"])
+    assert table["rung"].tolist() == ["0.10", "none"]
+    assert table["error"].tolist()[0] == 0.5
+    assert np.isnan(table["error"].tolist()[1])
+    assert table["covered"].dtype == bool
+    assert table["note"].tolist()[1] == "slow, but right"
+
+
+@pytest.mark.parametrize("content", [None, b"", b"a,b\n1,2,3\n4\n5,6,7,8\n", b"\xff\xfe\x00"])
+def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> None:
+    source = tmp_path / "broken.csv"
+    if content is not None:
+        source.write_bytes(content)
+    with pytest.raises(BrokenResult, match=r"broken\.csv is no readable table: .*; delete it and run again$"):
+        read_table(source, [])

@@ -1,0 +1,78 @@
+"""What the tables say at a glance."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from rubfric.runner.findings import findings, highest, verdicts
+
+
+@pytest.fixture
+def tables(tmp_path: Path) -> list[Path]:
+    """Return two tables of two scenes each."""
+    rows = {
+        "velocity_mm_per_s": [1.0, 100.0],
+        "pressure_MPa": [0.5, 5.0],
+        "aspect": [0.75, 0.75],
+        "friction_coefficient": [0.1, 0.2],
+    }
+    paths = [tmp_path / f"friction_scale_{scale}.csv" for scale in (1, 12)]
+    for path, errors, warnings in zip(paths, ([1e-3, 1e-4], [2e-4, 3e-3]), ([0, 0], [2, 0]), strict=True):
+        pd.DataFrame(rows | {"friction_coefficient_error": errors, "warnings": warnings}).to_csv(path, index=False)
+    return paths
+
+
+def test_largest_error_is_relative_and_has_its_place(tables: list[Path]) -> None:
+    told = findings(tables)
+    assert told == [
+        "largest estimated error of friction 1.5 %, on scale 12 at 100.0 mm/s, 5.0 MPa, height/width 0.75",
+        "1 of 4 scenes carry a warning: column warnings of the tables, and the scenes' logs",
+    ]
+
+
+def test_no_warning_is_said_too(tables: list[Path]) -> None:
+    assert findings(tables[:1])[1] == "none of 2 scenes carries a warning"
+
+
+def test_missing_tables_count_for_nothing(tables: list[Path], tmp_path: Path) -> None:
+    nowhere = tmp_path / "friction_scale_3.csv"
+    assert findings([nowhere, *tables]) == findings(tables)
+    assert findings([nowhere]) == []
+
+
+def test_tables_of_another_version_count_for_nothing(tables: list[Path]) -> None:
+    old = pd.read_csv(tables[0]).drop(columns="warnings")
+    old.to_csv(tables[0], index=False)
+    assert findings(tables[:1]) == []
+
+
+def test_road_without_friction_has_no_largest_error(tables: list[Path]) -> None:
+    flat = pd.read_csv(tables[0]).assign(friction_coefficient=0.0)
+    flat.to_csv(tables[0], index=False)
+    assert findings(tables[:1]) == ["none of 2 scenes carries a warning"]
+
+
+def test_highest_friction_is_told_with_its_error_and_place(tmp_path: Path) -> None:
+    table = tmp_path / "friction_total.csv"
+    table.write_text(
+        "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n"
+        "1,0.5,0.31,0.002\n10000,5,1.0411,0.00754\n100,5,,\n10,5,0.2,\n"
+    )
+    assert highest(table) == "at most 1.04 ± 0.008, at 10000 mm/s and 5 MPa"
+    table.write_text("velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n")
+    assert highest(table) == ""
+    table.unlink()
+    assert highest(table) == ""
+
+
+def test_verdicts_are_counted_over_all_pressures_of_the_campaign(tmp_path: Path) -> None:
+    path = tmp_path / "claims.csv"
+    assert verdicts(path) == ""
+    path.write_text(
+        "claim,reading,pressure_MPa,verdict\nC1,campaign,all,holds\nC1,campaign,5,does not hold\n"
+        "C2,campaign,all,holds in part\nC3,campaign,all,holds\nC1,other,all,does not hold\n"
+    )
+    assert verdicts(path) == "holds: 2 of 3; holds in part: 1 of 3"
