@@ -8,7 +8,7 @@ from snakemake.utils import min_version, validate
 from rubfric.files import check_folder, check_place
 from rubfric.config.campaign import Campaign
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
-from rubfric.runner.records import check_records
+from rubfric.runner.reruns import check_records
 from rubfric.rig.files import rig_files
 
 min_version("9.0")

@@ -1,6 +1,6 @@
 """Imported by the fork server of the jobs: everything that a job needs, imported and used once.
 
-Much of the scientific stack loads itself only on first use; what is loaded here, no job has to load again.
+Much of the scientific stack is loaded on first use only; what is loaded here, no job loads again.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def _use_everything() -> None:
 
 try:
     _use_everything()
-except Exception as error:  # whatever is wrong here is wrong in some job too, which can say so better
+except Exception as error:  # what is wrong here fails a job too, with a better message
     print(f"The jobs start cold: {error}", file=sys.stderr)
-# What is here stays here: the forks' garbage collection need not touch, and so copy, it.
+# Frozen objects are left alone by the garbage collection of the forks, which would otherwise copy their pages.
 gc.collect()
 gc.freeze()
