@@ -25,6 +25,7 @@ import tables
 
 from rubfric.config.campaign import Campaign, load
 from rubfric.marching import march
+from rubfric.markdown import markdown_table
 from rubfric.results.campaign import collect
 from rubfric.results.dataset import read, write
 from rubfric.results.march import build
@@ -176,7 +177,7 @@ def main() -> None:
         ("- drawing every figure once", f"{figures:.1f} s"),
         ("campaign over floor, round by round", ", ".join(f"{ratio:.2f}" for ratio in ratios)),
     ]
-    text = f"{tables.markdown(rows)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
+    text = f"{markdown_table(rows, numeric=True)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
     print(text)
     tables.publish("campaign", text)
 

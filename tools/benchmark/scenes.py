@@ -25,6 +25,7 @@ import tables
 
 from rubfric import simulation
 from rubfric.config.campaign import load
+from rubfric.markdown import markdown_table
 from rubfric.mechanics.block.contact import full_contact, solve_contact
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite import newton
@@ -119,7 +120,7 @@ def main() -> None:
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     parts = ", ".join(f"{label} {share:.0%}" for label, share in shares(scenes).items())
     text = (
-        f"{tables.markdown(rows)}\n\n"
+        f"{markdown_table(rows, numeric=True)}\n\n"
         f"{len(scenes)} scenes in each plane, {tables.times(rounds)} of each; small strain takes {ratio:.1f} "
         f"times a bare contact solve; peak memory {memory:.0f} MB. Where the time of finite strain goes: {parts}. "
         f"{tables.machine()}."

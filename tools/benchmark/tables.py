@@ -38,13 +38,6 @@ def machine() -> str:
     return f"{os.cpu_count()} cores ({model}), Python {platform.python_version()}"
 
 
-def markdown(rows: list[tuple[str, ...]]) -> str:
-    """Return a table; the first row holds the headings."""
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    lines.insert(1, "|---" + "|---:" * (len(rows[0]) - 1) + "|")
-    return "\n".join(lines)
-
-
 def publish(marker: str, text: str, place: Path = README) -> None:
     """Replace what stands between ``<!-- marker -->`` and ``<!-- /marker -->`` in a page, the README by default."""
     begin, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"

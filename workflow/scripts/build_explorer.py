@@ -1,7 +1,8 @@
 """Build the page on which the campaign is explored in a browser."""
 
 from rubfric.pages.explorer.data import payload
-from rubfric.pages.explorer.page import write_page
+from rubfric.pages.explorer.page import page
+from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
 
@@ -12,4 +13,4 @@ def main(output: str, campaign: str, scenes: list[str], digests: list[str], aspe
     ``road`` is the name of the road.
     """
     results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True))
-    write_page(payload(collection.read(campaign), results, aspect, road), output)
+    write_page(page(payload(collection.read(campaign), results, aspect, road)), output)

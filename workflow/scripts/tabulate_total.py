@@ -1,6 +1,7 @@
 """Write the table of all scales and their sum."""
 
-from rubfric.pages.table import table_page, write_page
+from rubfric.pages.render import write_page
+from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
 from rubfric.results.tables import total_table, write_table
 

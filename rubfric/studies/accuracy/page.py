@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from rubfric.markdown import markdown_table
 from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, verdict
 from rubfric.studies.accuracy.presets import knob_table, start_table
 
@@ -194,6 +195,4 @@ def _percent(share: float) -> str:
 
 
 def _markdown(table: pd.DataFrame) -> str:
-    lines = [[str(name) for name in table.columns], ["---", *["---:"] * (len(table.columns) - 1)]]
-    lines += [[str(value) for value in row] for row in table.itertuples(index=False)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return markdown_table([list(table.columns), *table.itertuples(index=False)], numeric=True)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from rubfric.markdown import markdown_table
 from rubfric.studies.stability.cases import LIMIT_SPEEDS, PANELS, Case
 from rubfric.studies.stability.trial import MOST_MEMORY, MOST_SECONDS, OUTCOMES, Trial
 
@@ -148,7 +149,7 @@ def page(table: pd.DataFrame) -> str:
         "slope; contact forces that carry the load; the three routes to friction in agreement), or it is refused with "
         "a reason, or it fails.",
         "",
-        markdown(summary(table)),
+        markdown_table(summary(table), numeric=True),
         "",
         f"{len(remarked)} of the converged results carry a caution, which the column `reason` of the table holds.",
         "",
@@ -167,7 +168,7 @@ def page(table: pd.DataFrame) -> str:
         "",
         "One branch, slid far slower and far faster than it relaxes: friction follows v and 1/v over three decades.",
         "",
-        markdown([("", "plane", "kinematics", "pressure", "off by"), *map(_followed, followed)]),
+        markdown_table([("", "plane", "kinematics", "pressure", "off by"), *map(_followed, followed)], numeric=True),
         "",
         "All are kept." if not wrong else f"{len(wrong)} are not kept.",
     ]
@@ -188,10 +189,3 @@ def _kinds(reasons: Iterable[str]) -> dict[str, int]:
 def _kind(reason: str) -> str:
     words = [word for word in reason.split() if not word.startswith("scale")]
     return " ".join("#" if word[0].isdigit() or word.strip(":,;)") in ("inf", "nan") else word for word in words)
-
-
-def markdown(rows: list[tuple[str, ...]]) -> str:
-    """Return a Markdown table; the first row holds the headings."""
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    lines.insert(1, "|---" + "|---:" * (len(rows[0]) - 1) + "|")
-    return "\n".join(lines)
