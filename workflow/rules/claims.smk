@@ -60,7 +60,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"claims of the paper reproduced: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -70,7 +70,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"claims of the paper reproduced: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "page",
             },
         ),

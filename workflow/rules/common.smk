@@ -22,7 +22,7 @@ from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
-# Headings of the report, which sorts by name.
+# Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
     figures="2 Figures of the paper",
@@ -71,8 +71,8 @@ if workflow.remote_exec:
 
 
 def package_files(*modules):
-    """Return a file that represents the package's files behind some modules: a job that lists it runs again when the
-    content of one of them changes.
+    """Return a file that represents the package's files behind some modules: a job that lists it reruns when the content
+    of one of them changes.
     """
     return stamp(".snakemake/sources", *modules)
 

@@ -7,7 +7,17 @@ from rubfric.results.tables import scale_table, write_table
 
 
 def main(output: str, page: str, campaign: str, scale: int) -> None:
-    """Write all scenes of ``scale`` in the campaign's file to the CSV file ``output`` and the HTML file ``page``."""
+    """Write all scenes of one scale.
+
+    Parameters
+    ----------
+    output, page : str
+        Paths of the table as CSV and as HTML.
+    campaign : str
+        Path of the collection of all scenes (netCDF).
+    scale : int
+        The scale, 1 being the coarsest.
+    """
     gathered = read(campaign)
     table = scale_table(gathered, scale)
     write_table(table, output)

@@ -7,7 +7,17 @@ from rubfric.results.tables import total_table, write_table
 
 
 def main(output: str, page: str, campaign: str, aspect: float) -> None:
-    """Write the friction of each scale and their sum at one height-to-width ratio to ``output`` (CSV) and ``page``."""
+    """Write the friction of each scale and their sum.
+
+    Parameters
+    ----------
+    output, page : str
+        Paths of the table as CSV and as HTML.
+    campaign : str
+        Path of the collection of all scenes (netCDF).
+    aspect : float
+        Height over width of the blocks.
+    """
     table = total_table(read(campaign), aspect)
     write_table(table, output)
     words = (
