@@ -20,7 +20,7 @@ PICTURE = ROOT / "docs" / "architecture.svg"
 WAY = {
     "config.campaign": "reads the config, checks it, and names every scene",
     "scene.scene": "holds all values that a result depends on",
-    "runner.jobs": "runs the scene in a process of its own, forked warm",
+    "runner.jobs": "runs the scene in a separate process, forked warm",
     "simulation": "leads the scene from here to its result",
     "mechanics.theory.kinematics": "decides between small and finite strain",
     "mechanics.steady.refinement": "refines the mesh until the estimated error is small enough",
@@ -62,7 +62,7 @@ class Room:
 
     @property
     def is_box(self) -> bool:
-        """Whether it has a box of its own: a package, or a module that is in none."""
+        """Whether it is drawn as a box: a package, or a module that is in none."""
         return bool(self.layers) or "." not in self.name
 
 

@@ -62,7 +62,7 @@ def test_friction_has_the_digits_that_its_error_leaves(
         ({"kind": "falling", "at": 0}, "there is no peak: friction is highest at 1 mm/s, the slowest speed run"),
         (
             {"kind": "level", "at": 1},
-            "no peak can be named: the highest, 0.300 ± 0.010 at 10 mm/s, cannot be told from",
+            "no peak can be named: the highest, 0.300 ± 0.010 at 10 mm/s, cannot be distinguished from",
         ),
         ({"kind": "few", "at": 1}, "there are too few speeds to name a peak; the highest is 0.300 ± 0.010 at 10 mm/s."),
         ({"kind": "none", "at": None}, "nothing was run."),

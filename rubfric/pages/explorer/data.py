@@ -17,7 +17,7 @@ from rubfric.pages.explorer.pictures import Store, picture
 from rubfric.results.scales import total_error, total_friction
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
-# What is told of every scene: variable, name in the page.
+# Numbers of every scene: variable, name in the page.
 _SCALARS = {
     _FRICTION: "friction",
     _ERROR: "error",
@@ -36,8 +36,8 @@ _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
 # Most nodes of a picture, over the height and along a wavelength, and the fewest; of how many pictures the most are
 # kept, so that the page stays below 10 MB.
 _MOST, _FEWEST, _ROOM = (28, 128), (12, 32), 400
-# Per cent of the scenes whose faintest parts the scale of energies leaves out, and its least length in decades.
-_FAINTEST, _LENGTH = 10.0, 0.5
+# Per cent of the scenes whose lowest energies the common scale leaves out, and its least length in decades.
+_LOWEST, _LENGTH = 10.0, 0.5
 
 
 def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, road: str) -> dict[str, Any]:
@@ -163,13 +163,13 @@ def _pictures(
     for result in results:
         scene = _found(result, axes, scenes, aspect)
         made = picture(result, *most)
-        low.append(made.about["faint"])
+        low.append(made.about["floor"])
         high.append(made.about["energy"][1])
         scene["picture"] = store.add(made)
         scene["reason"] = result.attrs["kinematics_reason"]
         scene["warnings"] = [sentence for sentence in result.attrs["warnings"].split("\n") if sentence]
     top = max(high, default=0.0)
-    return store.packed(), [min(float(np.percentile(low, _FAINTEST)) if low else -3.0, top - _LENGTH), top]
+    return store.packed(), [min(float(np.percentile(low, _LOWEST)) if low else -3.0, top - _LENGTH), top]
 
 
 def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float) -> dict[str, Any]:
