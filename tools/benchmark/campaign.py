@@ -178,7 +178,7 @@ def main() -> None:
     ]
     text = f"{tables.markdown(rows)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
     print(text)
-    tables.publish("campaign", text)
+    tables.publish("campaign", text, "performance.md")
 
 
 if __name__ == "__main__":

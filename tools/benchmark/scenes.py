@@ -125,7 +125,7 @@ def main() -> None:
         f"{tables.machine()}."
     )
     print(text)
-    tables.publish("scenes", text)
+    tables.publish("scenes", text, "performance.md")
 
 
 def written(times: list[float]) -> tuple[str, str, str]:
