@@ -33,7 +33,7 @@ from rubfric.simulation import simulate
 from rubfric.studies.paper.observation import observe
 
 PROJECT = Path(__file__).resolve().parents[2]
-# Stands in for rubfric/runner/jobs.py: a job that only touches its outputs.
+# Replaces rubfric/runner/jobs.py: a job that only touches its outputs.
 TOUCH = """
 from pathlib import Path
 
