@@ -17,12 +17,11 @@ from pathlib import Path
 import numpy as np
 import tables
 import yaml
-from campaign import PROJECT, copy_project
+from campaign import copy_project
 
 from rubfric.config.campaign import Campaign, load
 from rubfric.markdown import markdown_table
 
-PAGE = PROJECT / "docs" / "scaling.md"
 SIZES = (1_000, 10_000, 30_000)
 PRESSURES = 10
 OVERLAY = "many.yaml"
@@ -129,7 +128,7 @@ def main() -> None:
     note = f"Processor time of one run each, start-up included. {tables.machine()}."
     text = f"{markdown_table(rows, numeric=True)}\n\n{note}"
     print(text)
-    tables.publish("dag", text, PAGE)
+    tables.publish("dag", text, "performance.md")
 
 
 if __name__ == "__main__":
