@@ -35,7 +35,7 @@ WAY = {
 }
 # A colour for the rooms of each part of the story: line, ground.
 _COLOURS = {
-    "errors arrays checks files markdown": ("#7b8794", "#f5f7fa"),
+    "errors arrays checks files markdown rules": ("#7b8794", "#f5f7fa"),
     "rubber road scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
     "results simulation marching": ("#1a6e8e", "#eef7fb"),
@@ -82,7 +82,8 @@ def rooms() -> Room:
     def room(name: str) -> Room:
         below = sorted(graph.find_children(name), key=lambda child: (bool(graph.find_children(child)), child))
         if name in order:
-            names = [[f"{name}.{one}" for one in re.findall(r"\w+", layer)] for layer in order[name]]
+            layers = [[f"{name}.{one}" for one in re.findall(r"\w+", layer)] for layer in order[name]]
+            names = [there for layer in layers if (there := [one for one in layer if one in graph.modules])]
         else:
             names = [below] if below else []
         return Room(name.removeprefix("rubfric."), _words(name), tuple(tuple(map(room, layer)) for layer in names))
