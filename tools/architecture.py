@@ -170,7 +170,7 @@ class Drawing:
         """Draw modules in as many lines as they need; return where the last one ends."""
         at = x
         for one in chips:
-            if at > x and at + _chip_width(one) > x + width:
+            if at > x and at + _chip_width(one) > x + width + 0.01:  # whatever x rounds to
                 at, y = x, y + _CHIP + _GAP
             if draw:
                 self.chip(one, at, y, _chip_width(one), _colour(one.name)[0])
