@@ -6,36 +6,20 @@ Light on purpose: the workflow reads it before any job starts, so nothing of the
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.choices import (
-    AspectStudy,
-    FigureChoice,
-    TransientChoice,
-    read_aspect_study,
-    read_figures,
-    read_transient,
-    scale_number,
-)
+from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
 from rubfric.config.overlay import overlaid
-from rubfric.config.presets import read_numerics
-from rubfric.config.readings import ClaimsChoice, read_claims
-from rubfric.config.rigchoice import RigChoice, read_rig
 from rubfric.errors import InvalidInput
-from rubfric.road.sine import SineScale, scales_from_config
-from rubfric.rubber.material import PLANES, Material
-from rubfric.scene.scene import KINEMATICS, Numerics, Scene
-
-_KEYS = (
-    *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "rig", "claims", "numerics", "presets", "rubbers", "roads"),
-)
-# Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
-_LONGEST_PATH, _LONGEST_NAME = 1000, 255
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.rules import Choice, Integer
+from rubfric.scene.numerics import PRESET_KEYS, Numerics
+from rubfric.scene.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -92,30 +76,27 @@ class Campaign:
     @classmethod
     def from_config(cls, config: Mapping[str, Any]) -> Campaign:
         """Check a config whole and read it; InvalidInput says in one sentence what is wrong with it."""
-        checks.known_keys("config", config, _KEYS, _KEYS)
-        materials = {name: Material.from_config(name, entry) for name, entry in _catalogue(config, "rubbers").items()}
-        roads = {name: scales_from_config(name, entry) for name, entry in _catalogue(config, "roads").items()}
-        road = roads[checks.one_of("road", config["road"], roads)]
-        keys = ("velocities", "pressures", "aspect")
-        grid = checks.known_keys("grid", config["grid"], keys, keys)
-        velocities = checks.grid("grid.velocities", grid["velocities"], "mm/s")
-        pressures = checks.grid("grid.pressures", grid["pressures"], "MPa")
-        numerics, presets = read_numerics(config["numerics"], config["presets"])
+        given = Config.read("", config)
+        materials = {name: Material(name=name, **entry.given()) for name, entry in given.rubbers.items()}
+        roads = {name: tuple(SineScale(**scale.given()) for scale in entry) for name, entry in given.roads.items()}
+        road = roads[_one_of("road", given.road, roads)]
+        _check_references(given, len(road))
+        numerics, presets = _numerics(given)
         return cls(
-            results=_folder(config["results"]),
-            material=materials[checks.one_of("rubber", config["rubber"], materials)],
-            road_name=config["road"],
+            results=given.results,
+            material=materials[_one_of("rubber", given.rubber, materials)],
+            road_name=given.road,
             road=road,
-            plane=checks.one_of("plane", config["plane"], PLANES),
-            kinematics=checks.one_of("kinematics", config["kinematics"], KINEMATICS),
-            velocities=velocities,
-            pressures=pressures,
-            aspect=checks.positive("grid.aspect", grid["aspect"]),
-            aspect_study=read_aspect_study(config["aspect_study"], len(road)),
-            transient=read_transient(config["transient"], len(road)),
-            figures=read_figures(config["figures"], len(road), velocities, pressures),
-            rig=read_rig(config["rig"]),
-            claims=read_claims(config["claims"], presets),
+            plane=given.plane,
+            kinematics=given.kinematics,
+            velocities=given.grid.velocities,
+            pressures=given.grid.pressures,
+            aspect=given.grid.aspect,
+            aspect_study=given.aspect_study,
+            transient=given.transient,
+            figures=given.figures,
+            rig=given.rig,
+            claims=given.claims,
             numerics=numerics,
             presets=presets,
         )
@@ -152,8 +133,8 @@ class Campaign:
         accuracy : float, optional
             Relative accuracy of friction, instead of that of the preset or of the numerics.
         """
-        index = scale_number("scale", scale, len(self.road))
-        numerics = self.presets[checks.one_of("preset", preset, self.presets)] if preset else self.numerics
+        index = _scale_number("scale", scale, len(self.road))
+        numerics = self.presets[_one_of("preset", preset, self.presets)] if preset else self.numerics
         return Scene(
             scale=index,
             road=self.road[index - 1],
@@ -184,7 +165,7 @@ class Campaign:
 
     def reading(self, name: str) -> Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
-        other = self.claims.readings[checks.one_of("reading", name, self.claims.readings)]
+        other = self.claims.readings[_one_of("reading", name, self.claims.readings)]
         return replace(
             self,
             material=other.rubber(self.material),
@@ -212,7 +193,7 @@ class Campaign:
 
     def field_scenes(self) -> dict[str, Scene]:
         """Return the scenes whose fields are drawn, by name; pressure by pressure."""
-        chosen = self.figures
+        chosen = self.figures.fields
         scenes = (
             self.scene(chosen.scale, velocity, pressure)
             for pressure, velocity in product(chosen.pressures, chosen.velocities)
@@ -232,24 +213,55 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    return Campaign.from_config(overlaid(paths, _KEYS))
+    return Campaign.from_config(overlaid(paths, Config.model_fields))
 
 
-def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    entries = config[key]
-    if not isinstance(entries, Mapping) or not entries:
-        raise InvalidInput(f"{key} is {checks.shown(entries)}, but must hold at least one entry by name")
-    for name in entries:
-        checks.text(f"name in {key}", name)
-    return entries
+def _one_of(key: str, value: Any, names: Iterable[str]) -> str:
+    return Choice(words=names).check(key, value)
 
 
-def _folder(value: Any) -> str:
-    if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-        raise InvalidInput(f"results is {checks.shown(value)}, but must be the path of a folder, without braces")
-    if len(os.fsencode(value)) > _LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > _LONGEST_NAME:
-        raise InvalidInput(
-            f"results is {checks.shown(value)}, but must be a path of at most {_LONGEST_PATH} letters, "
-            f"{_LONGEST_NAME} in each name"
-        )
-    return value.rstrip("/") or "/"
+def _scale_number(key: str, value: Any, scales: int) -> int:
+    """Return the number of one of the road's scales."""
+    number = Integer().check(key, value)
+    if number > scales:
+        raise InvalidInput(f"{key} is {number}, but must be one of the road's scales, 1 to {scales}")
+    return number
+
+
+def _check_references(given: Config, scales: int) -> None:
+    """Check what refers to other entries of the config: scales, values of the grid, presets and readings."""
+    study, fields = given.aspect_study, given.figures.fields
+    numbered = {"transient.scale": given.transient.scale, "figures.fields.scale": fields.scale}
+    numbered |= {f"aspect_study.scales[{place}]": number for place, number in enumerate(study.scales)}
+    for key, number in numbered.items():
+        _scale_number(key, number, scales)
+    chosen = (
+        ("figures.total_pressure", (given.figures.total_pressure,), "pressures"),
+        ("figures.fields.pressures", fields.pressures, "pressures"),
+        ("figures.fields.velocities", fields.velocities, "velocities"),
+    )
+    for key, values, axis in chosen:
+        allowed = getattr(given.grid, axis)
+        for value in values:
+            if value not in allowed:
+                known = ", ".join(map(checks.written, allowed))
+                raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from grid.{axis}: {known}")
+    _one_of("claims.preset", given.claims.preset, given.presets)
+    for name in given.claims.compare:
+        _one_of("claims.compare", name, given.claims.readings)
+
+
+def _numerics(given: Config) -> tuple[Numerics, dict[str, Numerics]]:
+    """Return the preset in use with what is laid over it, and every preset with nothing laid over.
+
+    A bound on columns below those that a preset begins with concerns the preset in use only.
+    """
+    own = given.numerics.given()
+    preset = _one_of("numerics.preset", own.pop("preset"), given.presets)
+    entries = {name: entry.given() for name, entry in given.presets.items()}
+    rest = {name: value for name, value in own.items() if name not in PRESET_KEYS}
+    presets = {}
+    for name, entry in entries.items():
+        most = max(rest["columns_max"], entry["columns_min"], entry["finite_columns_min"])
+        presets[name] = Numerics(**entry | rest | {"columns_max": most})
+    return Numerics(**entries[preset] | own), presets

@@ -8,7 +8,7 @@ from html import escape
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.studies.paper.verdicts import EVERY, FAILS, HOLDS, IN_PART, SIMULATED, UNDECIDED
 
 # A mark besides the colour, for print and for eyes that tell no green from red.

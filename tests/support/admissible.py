@@ -10,10 +10,11 @@ import yaml
 from hypothesis import strategies as st
 
 from rubfric import checks
-from rubfric.config.choices import STARTS
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.scene.scene import COLUMNS_PER_HEIGHT, KINEMATICS, Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.procedure import STARTS
+from rubfric.scene.scene import COLUMNS_PER_HEIGHT, KINEMATICS, Scene
 
 Config = dict[str, Any]
 

@@ -12,16 +12,17 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from test_campaign import BAD_CONFIGS, DEFAULT, MINIMAL, MISSING, ROOT, Bad, Config, case_name, changed
-
-from rubfric.config.campaign import Campaign
 from rubfric.config.choices import AspectStudy
 from rubfric.config.presets import PRESET_KEYS
 from rubfric.config.readings import Reading
-from rubfric.config.rigchoice import TRACTIONS, RigChoice, VirtualRig
+from test_campaign import BAD_CONFIGS, DEFAULT, MINIMAL, MISSING, ROOT, Bad, Config, case_name, changed
+
+from rubfric.config.campaign import Campaign
+from rubfric.config.models import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.scene.scene import DILATATIONS, KINEMATICS, Numerics
+from rubfric.scene.numerics import DILATATIONS, Numerics
+from rubfric.scene.scene import KINEMATICS
 
 SCHEMA: dict[str, Any] = yaml.safe_load((ROOT / "workflow" / "schemas" / "config.schema.yaml").read_text())
 UNITS = re.compile(r"(?<![\w/])(mm/s|MPa|1/mm|t/mm³|mm²|mm|kg|Hz|N|s)(?![\w/'])|\bdimensionless\b")

@@ -4,7 +4,7 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.claims import claims_page
 from rubfric.pages.table import write_page
 from rubfric.results.campaign import read

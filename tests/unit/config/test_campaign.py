@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 import pytest
 import yaml
+from rubfric.config.choices import AspectStudy
 
 from rubfric.config.campaign import Campaign, load
-from rubfric.config.choices import AspectStudy
 from rubfric.errors import InvalidInput
-from rubfric.scene.scene import Numerics
+from rubfric.scene.numerics import Numerics
 
 ROOT = Path(__file__).resolve().parents[3]
 DEFAULT = ROOT / "config" / "config.yaml"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-
 from rubfric.config.choices import AspectStudy, FigureChoice, read_aspect_study, read_figures, scale_number
+
 from rubfric.errors import InvalidInput
 
 STUDY: dict[str, Any] = {"aspects": [0.5, 1], "scales": [1, 3], "pressures": [5]}

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 import yaml
-
 from rubfric.config.presets import PRESET_KEYS, fineness, read_numerics
+
 from rubfric.errors import InvalidInput
-from rubfric.scene.scene import Numerics
+from rubfric.scene.numerics import Numerics
 
 CONFIG = yaml.safe_load((Path(__file__).resolve().parents[3] / "config" / "config.yaml").read_text(encoding="utf-8"))
 NUMERICS: dict[str, Any] = CONFIG["numerics"]

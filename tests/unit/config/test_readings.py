@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rubfric.config.readings import Reading, read_claims
 
 import rubfric
-from rubfric.config.readings import Reading, read_claims
 from rubfric.errors import InvalidInput
 
 CONFIG = Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml"

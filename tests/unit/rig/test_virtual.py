@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rubfric.config.rigchoice import RigChoice, VirtualRig
+from rubfric.config.models import RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.files import rig_files
@@ -147,6 +147,6 @@ def test_files_of_the_rig_are_found_or_named(tmp_path: Path) -> None:
 
 
 def test_choice_survives_the_way_into_a_job() -> None:
-    from rubfric.config.rigchoice import read_rig
+    from rubfric.config.models import read_rig
 
     assert read_rig(asdict(choice())) == choice()

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 import yaml
-
 from rubfric.config.presets import read_numerics
+
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 
