@@ -41,7 +41,10 @@ class Rule:
         raise NotImplementedError
 
     def schema(self) -> dict[str, Any]:
-        """Return the JSON schema of the values allowed."""
+        """Return the JSON schema of the values allowed; the unit of numbers is a keyword of its own."""
+        return ({"description": self.about} if self.about else {}) | self._schema()
+
+    def _schema(self) -> dict[str, Any]:
         raise NotImplementedError
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
@@ -50,7 +53,7 @@ class Rule:
         return core_schema.no_info_plain_validator_function(lambda value: self.check(HERE, value))
 
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        return ({"description": self.about} if self.about else {}) | self.schema()
+        return self.schema()
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,6 @@ class Number(Rule):
 
     Parameters
     ----------
-    about : str
     unit : str
         Nothing for a dimensionless number.
     low, high : float
@@ -90,8 +92,7 @@ class Number(Rule):
             raise InvalidInput(f"{key} is {with_unit(checked, self.unit)}, but must {wanted}")
         return checked
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema; the unit is a keyword of its own."""
+    def _schema(self) -> dict[str, Any]:
         low, high = ("exclusiveMinimum", "exclusiveMaximum") if self.excluded else ("minimum", "maximum")
         return {"type": "number", low: self.low, high: self.high, "unit": self.unit or "dimensionless"}
 
@@ -102,7 +103,6 @@ class Integer(Rule):
 
     Parameters
     ----------
-    about : str
     low, high, step : int
     """
 
@@ -121,8 +121,7 @@ class Integer(Rule):
             raise InvalidInput(f"{key} is {checked:g}, but must be a multiple of {self.step}")
         return int(checked)
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema."""
+    def _schema(self) -> dict[str, Any]:
         bounds: dict[str, Any] = {
             "type": "integer",
             "minimum": self.low if self.step == 1 else max(self.low, self.step),
@@ -137,7 +136,6 @@ class Choice(Rule):
 
     Parameters
     ----------
-    about : str
     words : iterable of str
     """
 
@@ -152,8 +150,7 @@ class Choice(Rule):
             )
         return str(value)
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema."""
+    def _schema(self) -> dict[str, Any]:
         return {"enum": list(self.words)}
 
 
@@ -175,8 +172,7 @@ class Word(Rule):
             )
         return value
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema."""
+    def _schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_LETTERS}$", "maxLength": LONGEST_WORD}
 
 
@@ -186,7 +182,6 @@ class Place(Rule):
 
     Parameters
     ----------
-    about : str
     kind : {"file", "folder"}
     optional : bool
         Whether None may take its place.
@@ -208,8 +203,7 @@ class Place(Rule):
             )
         return (value.rstrip("/") or "/") if self.kind == "folder" else value
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema."""
+    def _schema(self) -> dict[str, Any]:
         kind = ["string", "null"] if self.optional else "string"
         return {"type": kind, "minLength": 1, "maxLength": LONGEST_PATH}
 
@@ -220,7 +214,6 @@ class Items(Rule):
 
     Parameters
     ----------
-    about : str
     each : Rule
     least : int
         Fewest items, 0 or 1.
@@ -249,8 +242,7 @@ class Items(Rule):
             raise InvalidInput(f"{key}[{again}] is {what}, the same as {key}[{items.index(items[again])}]; keep one")
         return tuple(sorted(items) if self.ascending else items)
 
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema."""
+    def _schema(self) -> dict[str, Any]:
         bounds = ({"minItems": self.least} if self.least else {}) | ({"uniqueItems": True} if self.distinct else {})
         return {"type": "array", **bounds, "items": self.each.schema()}
 
@@ -265,9 +257,10 @@ def check_fields(instance: object, at: str = "") -> None:
     at : str
         What comes before a field's name in a sentence, ``"numerics."`` for one.
     """
-    for name, rule in rules(type(instance)).items():
+    kind: Any = type(instance)
+    for name, rule in rules(kind).items():
         value = getattr(instance, name)
-        if value is not None or getattr(type(instance), name, ...) is not None:
+        if value is not None or getattr(kind, name, ...) is not None:
             object.__setattr__(instance, name, rule.check(at + name, value))
 
 

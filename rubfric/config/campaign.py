@@ -6,7 +6,7 @@ Light on purpose: the workflow reads it before any job starts, so nothing of the
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -14,11 +14,11 @@ from typing import Any
 from rubfric import checks
 from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
 from rubfric.config.overlay import overlaid
-from rubfric.errors import InvalidInput
+from rubfric.config.references import check_references, numerics_of, scale_number
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.rules import Choice, Integer
-from rubfric.scene.numerics import PRESET_KEYS, Numerics
+from rubfric.rules import Choice
+from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import Scene
 
 
@@ -79,12 +79,12 @@ class Campaign:
         given = Config.read("", config)
         materials = {name: Material(name=name, **entry.given()) for name, entry in given.rubbers.items()}
         roads = {name: tuple(SineScale(**scale.given()) for scale in entry) for name, entry in given.roads.items()}
-        road = roads[_one_of("road", given.road, roads)]
-        _check_references(given, len(road))
-        numerics, presets = _numerics(given)
+        road = roads[Choice(words=roads).check("road", given.road)]
+        check_references(given, len(road))
+        numerics, presets = numerics_of(given)
         return cls(
             results=given.results,
-            material=materials[_one_of("rubber", given.rubber, materials)],
+            material=materials[Choice(words=materials).check("rubber", given.rubber)],
             road_name=given.road,
             road=road,
             plane=given.plane,
@@ -133,8 +133,8 @@ class Campaign:
         accuracy : float, optional
             Relative accuracy of friction, instead of that of the preset or of the numerics.
         """
-        index = _scale_number("scale", scale, len(self.road))
-        numerics = self.presets[_one_of("preset", preset, self.presets)] if preset else self.numerics
+        index = scale_number("scale", scale, len(self.road))
+        numerics = self.presets[Choice(words=self.presets).check("preset", preset)] if preset else self.numerics
         return Scene(
             scale=index,
             road=self.road[index - 1],
@@ -165,7 +165,7 @@ class Campaign:
 
     def reading(self, name: str) -> Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
-        other = self.claims.readings[_one_of("reading", name, self.claims.readings)]
+        other = self.claims.readings[Choice(words=self.claims.readings).check("reading", name)]
         return replace(
             self,
             material=other.rubber(self.material),
@@ -214,54 +214,3 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
         For a missing file.
     """
     return Campaign.from_config(overlaid(paths, Config.model_fields))
-
-
-def _one_of(key: str, value: Any, names: Iterable[str]) -> str:
-    return Choice(words=names).check(key, value)
-
-
-def _scale_number(key: str, value: Any, scales: int) -> int:
-    """Return the number of one of the road's scales."""
-    number = Integer().check(key, value)
-    if number > scales:
-        raise InvalidInput(f"{key} is {number}, but must be one of the road's scales, 1 to {scales}")
-    return number
-
-
-def _check_references(given: Config, scales: int) -> None:
-    """Check what refers to other entries of the config: scales, values of the grid, presets and readings."""
-    study, fields = given.aspect_study, given.figures.fields
-    numbered = {"transient.scale": given.transient.scale, "figures.fields.scale": fields.scale}
-    numbered |= {f"aspect_study.scales[{place}]": number for place, number in enumerate(study.scales)}
-    for key, number in numbered.items():
-        _scale_number(key, number, scales)
-    chosen = (
-        ("figures.total_pressure", (given.figures.total_pressure,), "pressures"),
-        ("figures.fields.pressures", fields.pressures, "pressures"),
-        ("figures.fields.velocities", fields.velocities, "velocities"),
-    )
-    for key, values, axis in chosen:
-        allowed = getattr(given.grid, axis)
-        for value in values:
-            if value not in allowed:
-                known = ", ".join(map(checks.written, allowed))
-                raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from grid.{axis}: {known}")
-    _one_of("claims.preset", given.claims.preset, given.presets)
-    for name in given.claims.compare:
-        _one_of("claims.compare", name, given.claims.readings)
-
-
-def _numerics(given: Config) -> tuple[Numerics, dict[str, Numerics]]:
-    """Return the preset in use with what is laid over it, and every preset with nothing laid over.
-
-    A bound on columns below those that a preset begins with concerns the preset in use only.
-    """
-    own = given.numerics.given()
-    preset = _one_of("numerics.preset", own.pop("preset"), given.presets)
-    entries = {name: entry.given() for name, entry in given.presets.items()}
-    rest = {name: value for name, value in own.items() if name not in PRESET_KEYS}
-    presets = {}
-    for name, entry in entries.items():
-        most = max(rest["columns_max"], entry["columns_min"], entry["finite_columns_min"])
-        presets[name] = Numerics(**entry | rest | {"columns_max": most})
-    return Numerics(**entries[preset] | own), presets

@@ -7,18 +7,15 @@ defined by its own classes (``Numerics``, ``Procedure``, ``Material``, ``SineSca
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, dataclass, fields, replace
-from types import MappingProxyType
+from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError, create_model, model_validator
+from pydantic import create_model, model_validator
 
-from rubfric.checks import known_keys, shown
-from rubfric.errors import InvalidInput
+from rubfric.config.entries import Catalogue, Entry, Named, Scales, keys
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Rule, Word, rules
+from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Word, rules
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
 from rubfric.scene.procedure import Procedure, check_wavelengths
 from rubfric.scene.scene import KINEMATICS
@@ -29,117 +26,8 @@ TRACTIONS = ("rubber", "rope")
 AS_CONFIGURED = "campaign"
 
 
-class Entry(BaseModel):
-    """A mapping of the config with keys of its own."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _known(cls, given: Any) -> Any:
-        if isinstance(given, cls):
-            return given
-        required = [name for name, field in cls.model_fields.items() if field.is_required()]
-        return dict(known_keys(HERE, given, cls.model_fields, required))
-
-    @classmethod
-    def read(cls, key: str, given: Any) -> Self:
-        """Check a mapping and read it.
-
-        Parameters
-        ----------
-        key : str
-            Where the mapping is in the config, for the messages; nothing for the whole config.
-        given : mapping
-
-        Raises
-        ------
-        InvalidInput
-            One sentence on the first wrong entry, in the order of the keys.
-        """
-        try:
-            return cls.model_validate(given)
-        except ValidationError as error:
-            first = error.errors(include_url=False, include_input=False)[0]
-            path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in first["loc"])
-            at = f"{key}{path}".lstrip(".") or "config"
-            raise InvalidInput(str(first["ctx"]["error"]).replace(HERE, at)) from None
-
-    def given(self) -> dict[str, Any]:
-        """Return the entries that were given, without the defaults of others."""
-        return self.model_dump(exclude_unset=True)
-
-
-@dataclass(frozen=True)
-class Catalogue(Rule):
-    """A mapping, or lists, of entries whose names are free.
-
-    Parameters
-    ----------
-    about : str
-    least : int
-        Fewest entries, 0 or 1.
-    reserved : str
-        A name that no entry may have.
-    """
-
-    least: int = 1
-    reserved: str = ""
-
-    def check(self, key: str, value: Any) -> dict[str, Any]:
-        """Return a mapping by words; its entries are left to their own model."""
-        if not isinstance(value, Mapping) or len(value) < self.least:
-            wanted = "at least one entry by name" if self.least else "entries by name, or {} for none"
-            raise InvalidInput(f"{key} is {shown(value)}, but must hold {wanted}")
-        for name in value:
-            if Word().check(f"name in {key}", name) == self.reserved:
-                raise InvalidInput(f"{key} has {name!r}, which names the campaign itself; give another name")
-        return dict(value)
-
-    def schema(self) -> dict[str, Any]:
-        """Return what the JSON schema of the entries does not say."""
-        return ({"minProperties": self.least} if self.least else {}) | {"propertyNames": Word().schema()}
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        from pydantic_core import core_schema
-
-        return core_schema.no_info_before_validator_function(lambda value: self.check(HERE, value), handler(source))
-
-    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        return {"description": self.about} | self.schema() | handler(core)
-
-
-@dataclass(frozen=True)
-class Scales(Catalogue):
-    """A list of at least one scale of a road."""
-
-    def check(self, key: str, value: Any) -> Any:
-        """Return the list; its entries are left to their own model."""
-        if not isinstance(value, (list, tuple)) or not value:
-            raise InvalidInput(f"{key} is {shown(value)}, but must be a list of at least one scale")
-        return value
-
-    def schema(self) -> dict[str, Any]:
-        """Return what the JSON schema of the entries does not say."""
-        return {"minItems": 1}
-
-
-@dataclass(frozen=True)
-class Named(Word):
-    """The name of an entry elsewhere in the config, which is looked up when the whole config has been read."""
-
-    def check(self, key: str, value: Any) -> Any:
-        """Return ``value`` as it is."""
-        return value
-
-
 def _grid(about: str, unit: str = "") -> Items:
     return Items(about, Number(unit=unit))
-
-
-def _keys(source: type, names: Iterable[str], defaults: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
-    """Return keys with the rules of a dataclass, as pydantic takes them; those without a default are required."""
-    return {name: (Annotated[Any, rules(source)[name]], defaults.get(name, ...)) for name in names}
 
 
 class Grid(Entry):
@@ -313,26 +201,26 @@ else:
         __doc__="Accuracy and resolution: a preset, and whatever of a preset's keys shall differ from it. The program "
         "chooses each scene's kinematics and mesh by these rules.",
         preset=(Annotated[str, Named("Name of an entry under presets.")], ...),
-        **_keys(Numerics, [name for name in rules(Numerics) if name not in PRESET_KEYS]),
-        **_keys(Numerics, PRESET_KEYS, dict.fromkeys(PRESET_KEYS)),
+        **keys(Numerics, [name for name in rules(Numerics) if name not in PRESET_KEYS]),
+        **keys(Numerics, PRESET_KEYS, dict.fromkeys(PRESET_KEYS)),
     )
     Preset = create_model(
         "Preset",
         __base__=Entry,
         __doc__="An accuracy, with the first mesh on which to look for it.",
-        **_keys(Numerics, PRESET_KEYS),
+        **keys(Numerics, PRESET_KEYS),
     )
     Rubber = create_model(
         "Rubber",
         __base__=Entry,
         __doc__="A linear viscoelastic rubber, a spring and any number of Maxwell elements.",
-        **_keys(
+        **keys(
             Material,
             [name for name in rules(Material) if name != "name"],
             {one.name: one.default for one in fields(Material) if one.default is not MISSING},
         ),
     )
-    Scale = create_model("Scale", __base__=Entry, __doc__="A scale of a road.", **_keys(SineScale, rules(SineScale)))
+    Scale = create_model("Scale", __base__=Entry, __doc__="A scale of a road.", **keys(SineScale, rules(SineScale)))
 
 
 class Config(Entry):

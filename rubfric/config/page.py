@@ -11,7 +11,8 @@ from typing import Any, get_args, get_origin
 
 import yaml
 
-from rubfric.config.models import Config, Entry
+from rubfric.config.entries import Entry
+from rubfric.config.models import Config
 from rubfric.files import whole
 
 ROOT = Path(__file__).resolve().parents[2]
