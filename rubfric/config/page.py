@@ -84,7 +84,7 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         node = field.metadata[0].schema()
         unit = node.get("unit") or node.get("items", {}).get("unit") or _NOTHING
         optional = "" if field.is_required() else "; may be left out"
-        optional += f", for {_default(field.default)}" if field.default else ""
+        optional += f", for {_default(field.default)}" if optional and field.default is not None else ""
         defaults = "; ".join(f"{label}: {_default(value)}".removeprefix(": ") for label, value in inner.items())
         missing = "the preset's" if at == "numerics." else _NOTHING
         yield f"`{at}{name}`", field.metadata[0].about, unit, _allowed(node) + optional, defaults or missing

@@ -80,7 +80,7 @@ class Material:
         # In canonical digits: in floating point ten shares of 0.1 add up to less than 1.
         total = checks.number(f"{at}shear_fractions", math.fsum(fractions))
         if total >= 1.0:
-            raise InvalidInput(f"{at}shear_fractions add up to {total:g}, but must add up to less than 1")
+            raise InvalidInput(f"{at}shear_fractions add up to {total:g}, but must stay below 1")
 
     @property
     def long_term_fraction(self) -> float:
