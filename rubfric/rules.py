@@ -20,7 +20,7 @@ SMALLEST, LARGEST = 1e-30, 1e30
 # Words become part of file names, which have room for 255 bytes; a path has 4096, the outputs take their share of it.
 LONGEST_WORD, LONGEST_NAME, LONGEST_PATH = 100, 255, 1000
 _LETTERS = "[A-Za-z0-9_-]+"
-# Where a rule does not know its key, which pydantic knows: see ``rubfric.config.models``.
+# Where a rule does not know its key, which pydantic knows: see ``rubfric.config.entries``.
 HERE = "\0"
 
 
@@ -198,8 +198,7 @@ class Place(Rule):
             raise InvalidInput(f"{key} is {shown(value)}, but must be the path of a {self.kind}, without braces")
         if len(os.fsencode(value)) > LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > LONGEST_NAME:
             raise InvalidInput(
-                f"{key} is {shown(value)}, but must be a path of at most {LONGEST_PATH} letters, {LONGEST_NAME} in "
-                "each name"
+                f"{key} is {shown(value)}, but must have at most {LONGEST_PATH} letters, {LONGEST_NAME} a name"
             )
         return (value.rstrip("/") or "/") if self.kind == "folder" else value
 

@@ -57,7 +57,7 @@ class Entry(BaseModel):
 
 @dataclass(frozen=True)
 class Catalogue(Rule):
-    """A mapping, or lists, of entries whose names are free.
+    """A mapping of entries whose names are free.
 
     Parameters
     ----------
@@ -116,5 +116,15 @@ class Named(Word):
 
 
 def keys(source: type, names: Iterable[str], defaults: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
-    """Return keys with the rules of a dataclass, as pydantic takes them; those without a default are required."""
+    """Return keys with the rules of a dataclass, for ``pydantic.create_model``.
+
+    Parameters
+    ----------
+    source : type
+        The dataclass.
+    names : iterable of str
+        The fields to take.
+    defaults : mapping
+        Defaults of keys that may be left out, by name; the others are required.
+    """
     return {name: (Annotated[Any, rules(source)[name]], defaults.get(name, ...)) for name in names}

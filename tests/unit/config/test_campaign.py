@@ -198,15 +198,6 @@ def test_text_that_yaml_makes_of_a_power_of_ten_is_explained(tmp_path: Path) -> 
         load(DEFAULT, overlay)
 
 
-def test_overlay_replaces_lists_and_merges_mappings(tmp_path: Path) -> None:
-    overlay = tmp_path / "overlay.yaml"
-    overlay.write_text("numerics:\n  contact_nodes: 32\naspect_study:\n  aspects: [1]\n")
-    campaign = load(DEFAULT, overlay)
-    assert campaign.numerics == Numerics(contact_nodes=32)
-    assert campaign.aspect_study.aspects == (1.0,)
-    assert campaign.aspect_study.pressures == (0.5, 5.0)
-
-
 @pytest.mark.parametrize("content", [b"grid: [1, 2", b"plane: stress\n\tgrid: 1", b"# \xfcberlagert\nplane: stress\n"])
 def test_file_that_is_no_yaml_is_refused_by_name(tmp_path: Path, content: bytes) -> None:
     broken = tmp_path / "broken.yaml"
