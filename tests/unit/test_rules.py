@@ -83,7 +83,7 @@ def test_value_that_is_not_allowed_is_refused_in_one_sentence(rule: Rule, value:
 
 @pytest.mark.parametrize(("rule", "value"), [(Word(), "x" * 101), (Place(), "x" * 300), (Place(), "x/" * 600)])
 def test_what_is_too_long_for_a_path_is_refused(rule: Rule, value: str) -> None:
-    with pytest.raises(InvalidInput, match=r"(at most|may have) \d+"):
+    with pytest.raises(InvalidInput, match=r"at most \d+"):
         rule.check("key", value)
 
 
