@@ -37,7 +37,19 @@ class Rule:
     about: str = ""
 
     def check(self, key: str, value: Any) -> Any:
-        """Return ``value`` in canonical form; InvalidInput names ``key``, the value, and what is allowed."""
+        """Return ``value`` in canonical form.
+
+        Parameters
+        ----------
+        key : str
+            Where the value is, as a sentence names it.
+        value : object
+
+        Raises
+        ------
+        InvalidInput
+            One sentence that names the key, the value, and what is allowed.
+        """
         raise NotImplementedError
 
     def schema(self) -> dict[str, Any]:

@@ -253,18 +253,11 @@ def test_equal_rubbers_are_equal_and_hash_alike() -> None:
     ("key", "value", "complaint"),
     [
         ("youngs_modulus", 0.0, "is 0 MPa, but must be greater than 0"),
-        ("youngs_modulus", "4e0", r"is the text '4e0', .*write 4\.0e\+0\)"),
-        ("youngs_modulus", float("nan"), "is nan, but must be a finite number"),
         ("poissons_ratio", 0.5, "is 0.5, but must lie between -1 and 0.5, both excluded"),
-        ("poissons_ratio", -1.0, "is -1, but must lie between -1 and 0.5, both excluded"),
-        ("shear_fractions", [0.5, 0.5], "add up to 1, but must stay below 1"),
         ("shear_fractions", [0.5, -0.1], None),
-        ("shear_fractions", 0.5, "is 0.5, but must be a list of numbers"),
         ("relaxation_times", [1.0], "has 1 numbers, but must have as many as shear_fractions, 2"),
         ("relaxation_times", [1.0, 0.0], None),
         ("moduli", "longterm", r"is 'longterm', .*\(did you mean long_term\?\)"),
-        ("bulk", "constant", "is 'constant', but must be one of elastic, proportional"),
-        ("density", -1.0, "is -1 t/mm³, but must be greater than 0"),
     ],
 )
 def test_bad_values_are_refused_with_their_key(key: str, value: object, complaint: str | None) -> None:
