@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.markdown import markdown_table
 from rubfric.pages.render import render
 from rubfric.studies.paper.verdicts import EVERY, FAILS, HOLDS, IN_PART, SIMULATED, UNDECIDED

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from rubfric import checks
-from rubfric.config.rigchoice import VirtualRig
+from rubfric.config.models import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.bearing import Drag
@@ -19,6 +18,7 @@ from rubfric.rig.reduction import Reduced, reduce_record
 from rubfric.rig.sensors import Ideal, Sensors, as_record, ideal, recorded, write_run
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.sled import Sled, choose_weight, slide
+from rubfric.rules import Number
 
 # A run that settles lasts for so many s, and slides so many mm, at least.
 _LASTS, _SLIDES = 2.0, 3.0
@@ -172,21 +172,21 @@ def simulate(
         For a pressure or a speed outside of what was simulated, or a weight that does not move the sled.
     """
     sled, sensors = parts_of(rig)
-    curve = friction.at(checks.positive("pressure", pressure, "MPa"))
+    curve = friction.at(Number(unit="MPa").check("pressure", pressure))
     if weight is None:
-        wanted = checks.positive("speed", speed, "mm/s")
+        wanted = Number(unit="mm/s").check("speed", speed)
         reason = _outside(friction, wanted, pressure)
         found = reason or choose_weight(sled, curve, pressure, wanted, rig.heaviest_weight)
         if isinstance(found, str):
             raise InvalidInput(f"speed is {wanted:g} mm/s, but that is {found}")
         run = Run(pressure, found.mass, wanted, found.settles)
     else:
-        run = Run(pressure, checks.positive("weight", weight, "kg"), float(friction.speeds[-1]), False)
+        run = Run(pressure, Number(unit="kg").check("weight", weight), float(friction.speeds[-1]), False)
     made = make(run, friction, sled, sensors)
     fastest = float(made.speed(made.release + np.linspace(0.0, made.motion.duration, 1001)).max())
     about = [
         f"{run.pressure:g} MPa, weight {run.weight:.6g} kg, seed {rig.seed}",
-        *(f"{field.name}: {getattr(rig, field.name)}" for field in fields(rig) if field.name != "seed"),
+        *(f"{name}: {value}" for name, value in rig if name != "seed"),
     ]
     write_run(recorded(made, sensors, np.random.default_rng(rig.seed)), path, about)
     return (

@@ -12,8 +12,9 @@ import pytest
 
 from rubfric.mechanics.march.march import March, wavelength_means
 from rubfric.road.sine import SineScale
+from rubfric.scene.numerics import Numerics
 from rubfric.scene.procedure import Procedure
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]

@@ -13,7 +13,7 @@ from rubfric.runner import jobs
 from rubfric.config.campaign import load
 from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
@@ -144,7 +144,7 @@ def batches_by_speed(scenes):
 
 def criteria(campaign):
     """Return what the verdicts on the paper's claims depend on, besides results."""
-    fields = campaign.figures
+    fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
         "studied": list(campaign.aspect_study.pressures),
@@ -156,7 +156,7 @@ def criteria(campaign):
         },
         "difference": campaign.claims.difference,
         "saturation": campaign.transient.saturation,
-        "total_pressure": fields.total_pressure,
+        "total_pressure": campaign.figures.total_pressure,
     }
 
 

@@ -28,7 +28,7 @@ rule rig_points:
     log:
         f"{RESULTS}/logs/tables/rig_points.log",
     params:
-        rig=asdict(CAMPAIGN.rig),
+        rig=CAMPAIGN.rig.model_dump(),
         aspect=CAMPAIGN.aspect,
     message:
         "Test rig: {output.points}"

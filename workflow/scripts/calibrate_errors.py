@@ -5,7 +5,8 @@ from typing import Any
 import pandas as pd
 
 from rubfric.results.tables import write_table
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy.calibration import calibrate
 
 

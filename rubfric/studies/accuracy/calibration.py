@@ -12,7 +12,8 @@ from typing import Any
 import pandas as pd
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 from rubfric.studies.accuracy.converged import Converged, converge
 

@@ -9,16 +9,16 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.finite.steady import FiniteSolver
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.refinement import steps_to
 from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
 from rubfric.mechanics.theory.kinematics import decide
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
-# Fineness of the three meshes (``rubfric.config.presets``).
+# Fineness of the three meshes (``scene.numerics``).
 _FINENESS = {"small": (2.0, 3.0, 4.5), "finite": (1.4, 2.0, 2.8)}
 # Order by which three meshes that approach a limit steadily are extrapolated: the least that is observed there.
 _ORDER = 2.0

@@ -23,12 +23,12 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.config.presets import fineness
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.marching import march
 from rubfric.mechanics.march.result import Transient
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.scene.numerics import fineness
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from rubfric.config.presets import fineness
 from rubfric.errors import BrokenResult
-from rubfric.scene.scene import Numerics
+from rubfric.scene.numerics import Numerics, fineness
 from rubfric.studies.accuracy.ladder import STARTS
 
 # First meshes whose costs differ by less than this share cost the same: the finest of them is taken.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import pandas as pd
 import xarray as xr
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
 from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table

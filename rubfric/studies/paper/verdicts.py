@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import Evidence
 

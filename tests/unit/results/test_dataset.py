@@ -23,7 +23,8 @@ from rubfric.results.scalars import SCALARS
 from rubfric.results.warnings import cautions
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 RUBBER = Material("small", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))

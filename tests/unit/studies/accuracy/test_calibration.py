@@ -12,7 +12,8 @@ import pytest
 import xarray as xr
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy import calibration
 from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, climbed, verdict
 from rubfric.studies.accuracy.converged import Converged

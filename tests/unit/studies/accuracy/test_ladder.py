@@ -15,12 +15,12 @@ import pytest
 from synthetic_meshes import FRICTION, cell_size, synthetic
 
 import rubfric
-from rubfric.config.presets import fineness
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.resolution import Resolution
 from rubfric.mechanics.steady.solution import Friction, SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.scene.numerics import fineness
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy import ladder

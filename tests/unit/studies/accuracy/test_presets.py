@@ -11,8 +11,8 @@ import pandas as pd
 import pytest
 
 import rubfric
-from rubfric.config.presets import fineness
 from rubfric.errors import BrokenResult
+from rubfric.scene.numerics import fineness
 from rubfric.studies.accuracy.ladder import STARTS
 from rubfric.studies.accuracy.presets import knob_table, presets_that_differ, priced, start_table
 

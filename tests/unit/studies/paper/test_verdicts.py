@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.claims import claims_page, claims_text
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import Evidence
