@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.scaling import NEGLIGIBLE, scale_decades, scale_friction, tick_at
-from rubfric.figures.selection import described, friction, friction_error
+from rubfric.results.selection import described, friction, friction_error, written
 
 Array = NDArray[np.float64]
 
@@ -74,7 +74,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
     panels.label(axes, "height-to-width ratio (-)", "friction coefficient (-)")
     handles: list[Artist] = [
-        Line2D([], [], label=style.written(float(speed)), **look) for speed, look in zip(speeds, looks, strict=True)
+        Line2D([], [], label=written(float(speed)), **look) for speed, look in zip(speeds, looks, strict=True)
     ]
     handles.append(band_handle(np.concatenate(tables), np.concatenate(errors)))
     panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
 from rubfric.figures.scaling import scale_friction, tick_decades
-from rubfric.figures.selection import described
+from rubfric.results.selection import described, written
 
 Array = NDArray[np.float64]
 
@@ -178,7 +178,7 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
     most = max(float(slide.steps[-1]) for slide in slides)
     by_step.set_xlim(0.0, 1.03 * most)
     by_step.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
-    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
     furthest = max(1.0, *(float(slide.slid[-1]) for slide in slides))
     by_distance.set_xscale("log")
     by_distance.set_xlim(_FIRST, 1.15 * furthest)
@@ -191,7 +191,7 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
 
 
 def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any], alpha: float = 1.0) -> None:
-    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=style.written(slide.speed), **_STEPS)
+    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=written(slide.speed), **_STEPS)
     panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
 
 
@@ -219,7 +219,7 @@ def _apart(panel: Axes, places: Array) -> list[int]:
 def _handles(slides: Sequence[_Slide], looks: Sequence[dict[str, Any]]) -> list[Line2D]:
     handles = []
     for slide, look in zip(slides, looks, strict=True):
-        words = style.written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
+        words = written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
         handles.append(Line2D([], [], label=words, **look | {"linestyle": "-", "linewidth": 0.8, "markersize": 3.4}))
     handles.append(Line2D([], [], color="black", label="steady sliding,\nsolved directly", **_STEADY))
     if any(slide.means.size for slide in slides):
@@ -234,7 +234,7 @@ def _note(results: Sequence[xr.Dataset], slides: Sequence[_Slide]) -> str:
     block = _block(results[0])
     strains = " and ".join(sorted({str(result.attrs["kinematics_used"]) for result in results}))
     counts = sorted({int(result.attrs["steps_per_wavelength"]) for result in results})
-    steps = " to ".join(style.written(count) for count in sorted({counts[0], counts[-1]}))
+    steps = " to ".join(written(count) for count in sorted({counts[0], counts[-1]}))
     told = f"{block[0].upper()}{block[1:]}; {strains} strain; {steps} time steps to a wavelength at full speed."
     missing = [slide for slide in slides if not slide.saturated]
     if missing:
@@ -244,6 +244,6 @@ def _note(results: Sequence[xr.Dataset], slides: Sequence[_Slide]) -> str:
 
 
 def _remembered(slide: _Slide) -> str:
-    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else style.written(round(slide.memory))
-    words = f"{slide.means.size} / {memory} at {style.written(slide.speed)} mm/s"
+    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else written(round(slide.memory))
+    words = f"{slide.means.size} / {memory} at {written(slide.speed)} mm/s"
     return words.replace(" ", "\N{NO-BREAK SPACE}")

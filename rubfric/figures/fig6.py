@@ -12,7 +12,7 @@ from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import friction, friction_error
+from rubfric.results.selection import friction, friction_error, written
 
 
 @style.applied()
@@ -58,9 +58,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     scale_friction(axes[0], upper(grid.values, errors.values))
     panels.entitle(axes, _titles(scales))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    handles = [
-        Line2D([], [], label=style.written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)
-    ]
+    handles = [Line2D([], [], label=written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)]
     marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
     panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
     return figure

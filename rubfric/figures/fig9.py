@@ -19,6 +19,7 @@ from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.columns import check_columns
 from rubfric.figures.scaling import scale_friction, scale_speeds, tick_decades
 from rubfric.results.friction_map import FrictionMap
+from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
 
@@ -168,7 +169,7 @@ def _legend(panel: Axes, values: Sequence[float], unit: str) -> None:
             markersize=3.0,
             markerfacecolor="white",
             markeredgewidth=0.6,
-            label=f"{style.written(value)} {unit}",
+            label=f"{written(value)} {unit}",
         )
         for value, look in zip(values, style.lines(len(values)), strict=True)
     ]

@@ -8,7 +8,7 @@ from itertools import product
 from rubfric.figures.deformation import is_finite
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid
-from rubfric.figures.style import written
+from rubfric.results.selection import written
 
 
 def note_below(grid: SceneGrid, whole: bool, shares: bool) -> str:

@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from rubfric.results.selection import find_peak
+
 _RING = "peak"
 _LOOK: dict[str, Any] = {
     "linestyle": "none",
@@ -20,26 +22,19 @@ _LOOK: dict[str, Any] = {
 }
 
 
-def peak(values: NDArray[np.float64]) -> int | None:
-    """Return where the values are largest, or None where that is no peak: at an end, or on a flat line.
+def mark_peak(axes: Axes, speeds: NDArray[np.float64], values: NDArray[np.float64], colour: Any) -> None:
+    """Draw a ring around the largest of the sampled points, if it is a peak.
 
     Parameters
     ----------
-    values : numpy.ndarray
-        In the order of the speeds; NaN is skipped.
+    axes : matplotlib.axes.Axes
+    speeds, values : numpy.ndarray, shape (points,)
+        mm/s, and friction coefficients; NaN is skipped.
+    colour : matplotlib colour
     """
-    known = np.flatnonzero(np.isfinite(values))
-    if known.size < 3:
-        return None
-    highest = int(known[np.argmax(values[known])])
-    return highest if values[highest] > max(values[known[0]], values[known[-1]]) else None
-
-
-def mark_peak(axes: Axes, speeds: NDArray[np.float64], values: NDArray[np.float64], colour: Any) -> None:
-    """Draw a ring around the largest of the sampled points, if it is a peak."""
-    place = peak(values)
-    if place is not None:
-        axes.plot(speeds[place], values[place], color=colour, gid=_RING, zorder=4, **_LOOK)
+    found = find_peak(values)
+    if found.kind == "peak":
+        axes.plot(speeds[found.at], values[found.at], color=colour, gid=_RING, zorder=4, **_LOOK)
 
 
 def rings(axes: Axes) -> list[Line2D]:

@@ -11,7 +11,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocat
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
-from rubfric.figures.style import written
+from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import xarray as xr
 
 from rubfric.errors import InvalidInput
-from rubfric.figures.selection import described
+from rubfric.results.selection import described
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
+from rubfric.results.selection import written
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.
 COLUMN = 88.0 / 25.4
@@ -133,16 +134,6 @@ def kinds(count: int) -> list[dict[str, Any]]:
 def dashes(count: int) -> list[Any]:
     """Return the dashes of each of some lines; they repeat after five."""
     return [_DASHES[place % len(_DASHES)] for place in range(count)]
-
-
-def written(value: float) -> str:
-    """Return a number as it is printed in figures: 0.1, 10, 1000, 10 000."""
-    plain = f"{value:.12g}"
-    if "e" in plain or abs(value) < 10000.0:
-        return plain
-    whole, _, fraction = plain.partition(".")
-    grouped = f"{int(whole):,}".replace(",", "\N{NO-BREAK SPACE}")
-    return f"{grouped}.{fraction}" if fraction else grouped
 
 
 def percent(share: float) -> str:

@@ -11,6 +11,7 @@ import xarray as xr
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import check_variables
 
 # variable: heading
 _COLUMNS = {
@@ -39,7 +40,7 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     """Return all scenes of one scale, by aspect, pressure and speed; BrokenResult if the campaign lacks a column."""
-    _check(campaign, *_COLUMNS)
+    check_variables(campaign, *_COLUMNS)
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
@@ -51,7 +52,7 @@ def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
 
     By pressure and speed; BrokenResult if the campaign lacks a column.
     """
-    _check(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
+    check_variables(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
     friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
     total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
     error = total_error(campaign["friction_coefficient_error"].sel(aspect=aspect, drop=True))
@@ -86,12 +87,6 @@ def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFra
     except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
         reason = " ".join(str(error).split())
         raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
-
-
-def _check(campaign: xr.Dataset, *variables: str) -> None:
-    lacking = [name for name in variables if name not in campaign]
-    if lacking:
-        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:

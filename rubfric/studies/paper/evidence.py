@@ -11,6 +11,7 @@ import xarray as xr
 
 from rubfric.arrays import Real
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import find_peak
 from rubfric.studies.paper.observation import DEPTH
 
 # A profile counts as filled where this share of it is in contact. ASSUME: the paper names no number.
@@ -127,7 +128,7 @@ def _ratios(observed: xr.Dataset, aspect: float, studied: set[float], difference
         at = observed.sel(scale=scale, pressure=pressure)
         if pressure not in studied or at["friction_coefficient"].notnull().any("velocity").sum() < 2:
             continue
-        highest = _highest(at["friction_coefficient"].sel(aspect=aspect).values)
+        highest = find_peak(at["friction_coefficient"].sel(aspect=aspect).values).at
         for place, velocity in enumerate(at["velocity"].values):
             friction, error = _known(at.sel(velocity=velocity), "aspect")
             where = (int(scale), float(pressure), float(velocity))
@@ -234,10 +235,6 @@ def _known(at: xr.Dataset, axis: str) -> tuple[Real, Real]:
     error = at["friction_coefficient_error"].transpose(axis).values
     known = np.isfinite(friction) & np.isfinite(error)
     return friction[known], error[known]
-
-
-def _highest(friction: Real) -> int | None:
-    return int(np.nanargmax(friction)) if np.isfinite(friction).any() else None
 
 
 def _pairs(observed: xr.Dataset, first: str, second: str) -> Iterator[tuple[float, float]]:
