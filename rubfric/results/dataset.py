@@ -6,6 +6,7 @@ import json
 import os
 import platform
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.results.scalars import SCALARS, attributes, scalars
-from rubfric.results.warnings import cautions, faint
+from rubfric.results.warnings import below_noise_warning, warnings
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
@@ -37,8 +38,11 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
 
     Parameters
     ----------
+    solution : SteadySolution
+    energies : Energies
+        Of the solution.
     wall_time : float
-        Seconds that the solution and its energies took.
+        Of the solution and its energies, s.
 
     Returns
     -------
@@ -175,7 +179,7 @@ def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "plane": scene.plane,
         "software": _SOFTWARE,
         "warnings": "\n".join(
-            [*cautions(solution, energies.closure), *faint(energies.stress_power, energies.resolution)]
+            [*warnings(solution, energies.closure), *below_noise_warning(energies.stress_power, energies.resolution)]
         ),
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
@@ -190,6 +194,12 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
     The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
     name begins with a dot.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+    path : path-like
+        Missing folders are made.
 
     Raises
     ------
@@ -206,8 +216,17 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
         try:
             result.to_netcdf(part, engine="netcdf4", encoding=encoding)
         except (OSError, RuntimeError):
-            part.write_bytes(bytes(2 * result.nbytes))  # netCDF does not say what the matter is; the system does
+            _reserve(part, 2 * result.nbytes)  # netCDF does not give the reason, the system does
             raise
+
+
+def _reserve(path: Path, size: int) -> None:
+    """Allocate a file of so many bytes: OSError with the system's own errno where it has no room for them."""
+    with path.open("wb") as stream:
+        if hasattr(os, "posix_fallocate"):
+            os.posix_fallocate(stream.fileno(), 0, size)
+        else:  # macOS
+            stream.write(bytes(size))
 
 
 def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
@@ -215,6 +234,7 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
 
     Parameters
     ----------
+    path : path-like
     digest : str, optional
         ``Scene.digest`` of the scene whose result it has to be.
 

@@ -16,7 +16,7 @@ _FOLD_LIMIT = 0.1
 _CLOSURE_LIMIT = 0.01
 
 
-def cautions(solution: SteadySolution, closure: float) -> list[str]:
+def warnings(solution: SteadySolution, closure: float) -> list[str]:
     """Return what a reader should know before trusting the result, one sentence each; none is an error."""
     scene = solution.scene
     frequency = scene.road.excitation_frequency(scene.velocity)
@@ -68,7 +68,7 @@ def _remedy(solution: SteadySolution) -> str:
     return "raise numerics.refinements or numerics.columns_max"
 
 
-def faint(friction: float, resolution: float) -> list[str]:
+def below_noise_warning(friction: float, resolution: float) -> list[str]:
     """Return what to know of friction that the solver cannot tell from zero, where there is any; both dimensionless."""
     if not 0.0 < friction < resolution:
         return []

@@ -46,7 +46,7 @@ rule reading:
 
 rule claims:
     input:
-        package_files("rubfric.pages.claims", "rubfric.studies.paper.rigevidence"),
+        package_files("rubfric.pages.claims", "rubfric.studies.paper.evidence"),
         script="workflow/scripts/judge_claims.py",
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
@@ -59,7 +59,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"what of the paper stands: {verdicts(output.claims)}",
+                "answer": f"which claims are reproduced: {verdicts(output.claims)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -69,7 +69,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"what of the paper stands: {verdicts(output.claims)}",
+                "answer": f"which claims are reproduced: {verdicts(output.claims)}",
                 "as": "page",
             },
         ),

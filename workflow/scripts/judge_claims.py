@@ -11,9 +11,15 @@ from rubfric.results.campaign import read
 from rubfric.results.dataset import load
 from rubfric.results.tables import read_table, write_table
 from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
+from rubfric.studies.paper.evidence import (
+    depth_evidence,
+    gather,
+    march_evidence,
+    march_note,
+    rig_evidence,
+    rig_note,
+)
 from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
-from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
 from rubfric.studies.paper.verdicts import EVERY, claims_table, evidence_table
 
 

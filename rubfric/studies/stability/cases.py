@@ -1,7 +1,7 @@
-"""The matrix of numerical stability: scenes and marches far beyond any road test, as plain data.
+"""The matrix of numerical stability: scenes and marches at extreme inputs, as plain data.
 
 Every case differs from one base scene, near the paper's, in a few parameters. Planes of two parameters show where the
-limits lie; seeded corners mix all parameters at their ends.
+limits are; seeded corners combine extremes of all parameters.
 """
 
 from __future__ import annotations
