@@ -1,4 +1,4 @@
-"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and what it takes to redo it."""
+"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and all that reproduces it."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from rubfric.results.warnings import below_noise_warning, warnings
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
-# What the error about a result of other parameters says.
+# Message about a result of other parameters.
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 
-# Read once: looking versions up takes as long as a scene.
+# Read once: looking up versions takes as long as a scene.
 _SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
     + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
@@ -60,7 +60,7 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
 
 
 def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
-    """Return the mesh of the fields: every few columns of the one solved, and the first again at the far side."""
+    """Return the output mesh: every few columns of the mesh that was solved, the first repeated at the far end."""
     block = solution.block
     shear = "" if solution.decision.kinematics == "finite" else ", without the mean shear that friction causes"
     rows, columns = energies.density.shape
@@ -140,17 +140,17 @@ def _surface(solution: SteadySolution) -> dict[str, Any]:
     block, road, contact = solution.block, solution.scene.road, solution.contact
     x = block.column_positions
     return {
-        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, of the block as it was made")),
+        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, undeformed block")),
         "surface_position": (
             "surface_x",
             solution.surface_position,
-            attributes("mm", "distance along the road to which the surface has moved, where the gap is measured"),
+            attributes("mm", "distance along the road of the deformed surface, where the gap is measured"),
         ),
         "road_height": ("surface_x", road.height(x), attributes("mm", "height of the road above its mean plane")),
         "contact_pressure": (
             "surface_x",
             contact.pressure,
-            attributes("MPa", "vertical pressure of the road per area of the rubber as it was made"),
+            attributes("MPa", "vertical pressure of the road per area of the undeformed rubber"),
         ),
         "local_contact_pressure": (
             "surface_x",
@@ -230,13 +230,13 @@ def _reserve(path: Path, size: int) -> None:
 
 
 def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
-    """Read a result whole into memory.
+    """Read the result of a scene, completely into memory.
 
     Parameters
     ----------
     path : path-like
     digest : str, optional
-        ``Scene.digest`` of the scene whose result it has to be.
+        ``Scene.digest`` that the result must have.
 
     Raises
     ------
@@ -252,7 +252,7 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read any netCDF file whole into memory; BrokenResult where that cannot be."""
+    """Read any netCDF file completely into memory; BrokenResult where it cannot be read."""
     try:
         with xr.open_dataset(path, engine="netcdf4") as stored:
             return stored.load()

@@ -25,14 +25,14 @@ _VARIABLES = ("friction_coefficient", "friction_coefficient_error")
 class FrictionCurve:
     """Friction over speed at one pressure.
 
-    Between the speeds of the campaign it is a piecewise cubic in the logarithm of speed that has no peaks of its own
-    (Fritsch and Carlson 1980). Below the slowest it falls to zero in proportion to speed, as that of any rubber that
-    relaxes does; a sled needs it there to start. Above the fastest it is held, and nothing should be read from it.
+    Between the speeds of the campaign it is a monotone piecewise cubic in the logarithm of speed, which adds no peaks
+    (Fritsch and Carlson 1980). Below the slowest it falls to zero in proportion to speed, as for any rubber that
+    relaxes; a sled needs it there to start. Above the fastest it is constant, which is no prediction.
 
     Attributes
     ----------
     speeds : numpy.ndarray, shape (speeds,)
-        Those of the campaign, mm/s, ascending.
+        Of the campaign, mm/s, ascending.
     friction, error : numpy.ndarray, shape (speeds,)
         Friction coefficients there and their estimated absolute errors, dimensionless.
     """

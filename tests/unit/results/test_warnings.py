@@ -1,4 +1,4 @@
-"""What a reader should know of a scene: each caution where it applies, and only there."""
+"""Warnings about a scene: each where it applies, and only there."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_speed_near_that_of_shear_waves_is_noted() -> None:
     heavy = replace(SCENE, material=replace(RUBBER, density=1e-4))
     for solution in (small(heavy), finite(heavy)):
         (note,) = warnings(solution, 0.0)
-        assert note.endswith("of the shear-wave speed: inertia is neglected, but would matter.")
+        assert note.endswith("of the shear-wave speed: inertia is neglected, but matters there.")
 
 
 def test_estimate_of_what_finite_strain_changes_is_noted_from_the_accuracy_on() -> None:
@@ -99,7 +99,7 @@ def test_accuracy_asked_for_decides_what_is_noted() -> None:
 def test_compression_to_nothing_is_no_prediction(share: float, noted: bool) -> None:
     scene = replace(SCENE, pressure=share * RUBBER.confined_modulus("stress"))
     expected = (
-        "The load presses the block by 101% of its height, which small strain cannot mean: the number is no "
+        "The load presses the block by 101% of its height, more than small strain can represent: the number is no "
         "prediction; kinematics: finite gives one."
     )
     assert warnings(small(scene), 0.0) == ([expected] if noted else NOTHING)
@@ -179,4 +179,4 @@ def test_warnings_add_up(paper_rubber: Material) -> None:
 def test_friction_that_cannot_be_told_from_zero_says_so(friction: float, told: bool) -> None:
     said = below_noise_warning(friction, 5e-7)
     assert bool(said) == told
-    assert all("cannot tell from zero" in sentence for sentence in said)
+    assert all("cannot distinguish from zero" in sentence for sentence in said)
