@@ -12,7 +12,7 @@ from rubfric.rig.settings import Windows
 from rubfric.rig.speed import Cells
 
 STEADY, SWEEP = "steady", "sweep"
-# What a plateau takes of the run's travel or time, at least; anything shorter is a piece of a sweep.
+# Least share of the run's travel or time in a plateau; anything shorter is part of a sweep.
 _PLATEAU = 0.15
 # So many robust standard deviations are noise of the speeds.
 _NOISE = 2.5
@@ -22,7 +22,14 @@ _SCATTER = 5.0
 
 @dataclass(frozen=True)
 class Window:
-    """Samples ``start`` to ``end - 1`` of a record, in which the speed is steady or part of a sweep."""
+    """Samples ``start`` to ``end - 1`` of a record.
+
+    Attributes
+    ----------
+    start, end : int
+    kind : {"steady", "sweep"}
+        Whether the speed is steady, or part of a sweep.
+    """
 
     start: int
     end: int
@@ -34,6 +41,13 @@ def find_windows(record: Record, cells: Cells, limits: Windows) -> list[Window]:
 
     First the longest stretches whose speed stays within ``steady_range``, as long as they are a good part of the run.
     What is left, where the sled gains or loses speed, is cut into pieces within ``sweep_range``.
+
+    Parameters
+    ----------
+    record : Record
+    cells : Cells
+        Of the record, with their speeds.
+    limits : Windows
     """
     found: list[Window] = []
     for first, last in _slides(cells, record):
