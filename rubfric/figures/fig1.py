@@ -19,7 +19,7 @@ from rubfric.results.selection import described, friction, friction_error, writt
 def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
     """Draw the friction coefficient against speed, a line per ratio and a panel per scale and pressure.
 
-    Bands around the lines are the estimated errors; the legend tells the largest.
+    Bands around the lines are the estimated errors; the legend gives the largest.
 
     Parameters
     ----------

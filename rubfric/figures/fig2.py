@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -71,10 +70,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     _scale_height(axes[0], results)
     panels.entitle(axes, [described(pressure=pressure) for pressure in grid.pressures])
     panels.label(axes, "height in the undeformed block (mm)", "strain-energy density (MPa)")
-    handles: list[Artist] = [
-        Line2D([], [], label=f"mean at {written(speed)} mm/s", **look)
-        for speed, look in zip(grid.speeds, looks, strict=True)
-    ]
+    handles = panels.line_handles([f"mean at {written(speed)} mm/s" for speed in grid.speeds], looks)
     handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="range of the nodes")]
     handles += [Line2D([], [], label="steady value on a flat road", **_STEADY)]
     panels.legend_above(figure, handles, None, 2 if len(axes) == 1 else 3)

@@ -83,8 +83,8 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     matplotlib.figure.Figure
         The block repeats along the road and slides to the right. In finite strain it is drawn as it is deformed, with a
         net of lines that were squares before, up to its upper face or to a wavelength above the road. In small strain
-        its vertical displacements are to scale, but without its mean compression, which is told below the panels; half
-        a wavelength above the road is shown then. Each panel tells the share of the nominal area in contact.
+        its vertical displacements are to scale, but without its mean compression, which the note below gives; half a
+        wavelength above the road is shown then. Each panel gives the share of the nominal area in contact.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def _window(results: Sequence[xr.Dataset], blocks: Sequence[DeformedBlock]) -> _
 
 
 def _colour_scale(results: Sequence[xr.Dataset]) -> LogNorm:
-    """Return a scale from a low percentile, below which colour tells nothing, to the largest density."""
+    """Return a scale from a low percentile, below which the colour is constant, to the largest density."""
     density = np.concatenate([result["strain_energy_density"].values for result in results])
     positive = density[density > 0.0]
     if positive.size == 0:

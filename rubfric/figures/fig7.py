@@ -41,7 +41,8 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     -------
     matplotlib.figure.Figure
         The finest scale lies at the bottom. A ring marks the largest of the sampled totals, where it lies
-        between others. The band around the total is a bound on its estimated error, which the legend tells too.
+        between others. The band around the total is a bound on its estimated error; the legend gives the
+        largest.
 
     Raises
     ------

@@ -9,17 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from rubfric.figures import style
 from rubfric.results.selection import find_peak
 
 _RING = "peak"
-_LOOK: dict[str, Any] = {
-    "linestyle": "none",
-    "marker": "o",
-    "markersize": 8.0,
-    "markerfacecolor": "none",
-    "markeredgewidth": 0.9,
-    "clip_on": False,
-}
 
 
 def mark_peak(axes: Axes, speeds: NDArray[np.float64], values: NDArray[np.float64], colour: Any) -> None:
@@ -34,7 +27,7 @@ def mark_peak(axes: Axes, speeds: NDArray[np.float64], values: NDArray[np.float6
     """
     found = find_peak(values)
     if found.kind == "peak":
-        axes.plot(speeds[found.at], values[found.at], color=colour, gid=_RING, zorder=4, **_LOOK)
+        axes.plot(speeds[found.at], values[found.at], color=colour, gid=_RING, zorder=4, **style.RING)
 
 
 def rings(axes: Axes) -> list[Line2D]:
@@ -46,4 +39,4 @@ def peak_handles(*panels: Axes) -> list[Line2D]:
     """Return the legend's entry for the rings, or none where the panels have no ring."""
     if not any(rings(panel) for panel in panels):
         return []
-    return [Line2D([], [], color="black", label="sampled peak", **_LOOK)]
+    return [Line2D([], [], color="black", label="sampled peak", **style.RING)]

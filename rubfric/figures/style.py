@@ -65,6 +65,11 @@ RC_PARAMS: dict[str, Any] = {
 # Markers and dashes repeat after 8 and after 5 series: 40 pairs, whatever becomes of the colours.
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "p")
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (2.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (1, 1)))
+# A ring around a point.
+RING: dict[str, Any] = {
+    **{"linestyle": "none", "marker": "o", "markersize": 8.0},
+    **{"markerfacecolor": "none", "markeredgewidth": 0.9, "clip_on": False},
+}
 # Light hatches, of different direction or kind where areas touch.
 HATCHES = ("////", "....", "\\\\\\\\", "xxxx", "----")
 # Colours run from dark to light, evenly to the eye in colour, in grey and to the colour-blind;
@@ -89,7 +94,7 @@ _LOCK = threading.RLock()
 
 @contextmanager
 def applied() -> Iterator[None]:
-    """Draw with the shared look; serves as a decorator too, and lets one thread in at a time."""
+    """Draw with the shared look, one thread at a time; serves as a decorator too."""
     defaults: dict[Any, Any] = {key: mpl.rcParamsDefault[key] for key in mpl.rcParamsDefault if key != "backend"}
     with _LOCK, mpl.rc_context(defaults | RC_PARAMS):
         yield
@@ -174,7 +179,7 @@ def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
 
 
 def lay_out(figure: Figure) -> None:
-    """Place the panels for good, once for all files; matplotlib would do it twice for each."""
+    """Lay out the panels once for all files; matplotlib would do it twice for each."""
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
