@@ -56,7 +56,7 @@ def band_handle(values: Array, errors: Array, colour: Any = "0.3") -> Patch:
     ----------
     values, errors : numpy.ndarray, of one shape
         All friction coefficients that a figure shows, and their absolute errors. A coefficient of zero has no relative
-        error and counts for nothing.
+        error and is left out.
     colour : matplotlib colour
     """
     shown = np.abs(values) > NEGLIGIBLE  # False for NaN

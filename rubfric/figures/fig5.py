@@ -31,7 +31,7 @@ _BLOCK = ("scale", "pressure", "aspect")
 _ATTRIBUTES = ("velocity", *_BLOCK, "kinematics_used", "wavelength_mm", "steps_per_wavelength")
 # The phase in which the block begins to move; those before press it.
 _START = 2
-# Panel (b) begins at so many wavelengths; before, the block has hardly moved.
+# Wavelengths at which panel (b) begins; before, the block has hardly moved.
 _FIRST = 0.05
 # Markers are no nearer to each other than this share of the panel's width.
 _APART = 0.035

@@ -221,7 +221,7 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
 
 def _reserve(path: Path, size: int) -> None:
-    """Allocate a file of so many bytes: OSError with the system's own errno where it has no room for them."""
+    """Allocate a file of ``size`` bytes: OSError with the system's errno where there is no room for it."""
     with path.open("wb") as stream:
         if hasattr(os, "posix_fallocate"):
             os.posix_fallocate(stream.fileno(), 0, size)

@@ -21,7 +21,7 @@ from scipy.stats import t as student
 from rubfric.arrays import Real
 
 CONFIDENCE = 0.95
-# A coefficient of a polynomial counts where it exceeds so many of its standard errors, up to this order.
+# A coefficient of a polynomial is significant above this multiple of its standard error; highest order.
 _CLEAR, _HIGHEST = 3.0, 7
 
 
@@ -171,7 +171,7 @@ def noise_of(time: Real, values: Real, order: int, most: int = _HIGHEST, longer:
 
 
 def _about(rest: Real, order: int, longer: float) -> Noise:
-    """Return the noise that is left beside a polynomial; without slopes."""
+    """Return the noise of the residuals of a polynomial; without slopes."""
     effective = rest.size / max(correlation_length(rest), longer)
     freedom = max(effective - order - 1.0, 1.0)
     return Noise(float(rest @ rest) / freedom, effective, freedom, 0.0, 0.0)

@@ -183,7 +183,7 @@ def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> 
 
 
 def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
-    """Return why a window cannot be evaluated, or nothing."""
+    """Return why a window cannot be evaluated; empty if it can."""
     part = slice(window.start, window.end)
     samples = window.end - window.start
     travel = float(np.ptp(loaded.record.displacement[part]))
@@ -205,15 +205,15 @@ def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
 def _independent(point: Point, longer: float) -> float:
     """Return the number of independent samples by which a window is judged.
 
-    That of the unloaded sensors' noise, unless the window's own is far smaller. A short window's own number is noise
-    itself: to judge by it would keep those windows whose errors are thought too small.
+    That of the unloaded sensors' noise, unless the window's own is far smaller. The number estimated in a short window
+    is noisy: a selection by it would keep the windows whose errors are underestimated.
     """
     known = point.samples / longer
     return known if point.effective_samples > _CONSISTENT * known else point.effective_samples
 
 
 def _doubt(point: Point, independent: float, changes: tuple[float, float], clear: bool, limits: Windows) -> str:
-    """Return why what was found in a window is not trusted, or nothing."""
+    """Return why the point of a window is rejected; empty if it is not."""
     friction, doubt = point.friction_coefficient, point.friction_coefficient_ci95
     if independent < _FEWEST_EFFECTIVE:
         return (

@@ -185,7 +185,7 @@ def _check_clock(name: str, time: Real) -> None:
 def _spikes(values: Real, overloaded: Flags) -> Flags:
     """Return which samples lie far from the running median: single readings that no motion or force explains.
 
-    The running median follows ramps and steps, so that only what comes and goes within three samples is a spike
+    The running median follows ramps and steps, so that only a change that lasts for at most three samples is a spike
     (Hampel's rule).
     """
     found = np.zeros(values.shape[1], dtype=bool)
@@ -194,7 +194,7 @@ def _spikes(values: Real, overloaded: Flags) -> Flags:
         usual = 1.4826 * np.median(distance)
         changes = np.abs(np.diff(channel))
         moving = changes[changes > 0.0]
-        # The least that a reading can change by, for channels that stand still most of the time.
+        # Smallest change of a reading, for channels that are at rest most of the time.
         least = float(np.percentile(moving, 75.0)) if moving.size else 0.0
         found |= distance > _SPIKE * max(usual, least)
     return found & ~overloaded

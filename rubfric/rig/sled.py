@@ -14,9 +14,9 @@ from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.friction_map import FrictionCurve
 
 GRAVITY = 9806.65  # mm/s²
-# Relative accuracy of the motion, and points at which forces are looked at over the speeds.
+# Relative accuracy of the motion, and number of speeds at which forces are evaluated.
 _ACCURACY, _POINTS = 1e-7, 4001
-# A sweep reaches its speed within this part of the travel, with at least so many times the weight of the largest force.
+# A sweep reaches its speed within this part of the travel, under at least this multiple of the largest force.
 _REACH, _EXCESS = 0.8, 1.03
 
 

@@ -13,13 +13,13 @@ from rubfric.rig.record import Record
 from rubfric.rig.settings import Tare
 
 _FEWEST = 20
-# Blocks in which the record is looked at, and what part of the load counts as loaded.
+# Blocks into which the record is divided, and the part of the load above which a block is loaded.
 _BLOCKS, _LOADED = 200, 0.1
 # Above this part of the load an offset is none: the record begins under load.
 _LARGEST_OFFSET = 0.25
-# The load must exceed the noise so many times.
+# Least ratio of the load to the noise.
 _RISE = 10.0
-# Of an unloaded stretch, what lies next to the load is left out.
+# Share of an unloaded stretch, next to the load, that is left out.
 _GUARD = 0.2
 
 

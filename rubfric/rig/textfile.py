@@ -19,10 +19,10 @@ from rubfric.rig.units import is_unit
 
 SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "space": None}
 DECIMALS = {"point": ".", "comma": ","}
-# Lines that may stand before the headings, and rows that have to look like numbers below them.
+# Most lines before the headings, and rows below them that must look like numbers.
 _LONGEST_PREAMBLE, _ROWS_TO_LOOK_AT = 300, 3
 _FEWEST_COLUMNS = 4
-# Lines below the headings that are enough to know them: a line of units, and the rows to look at with empty ones.
+# Lines below the headings by which they are recognised: a line of units, and rows of numbers with empty ones.
 _LOOKED_AT = 2 + 2 * _ROWS_TO_LOOK_AT
 # Share of rows that may be unreadable.
 _MOST_UNREADABLE = 0.05
@@ -192,7 +192,7 @@ def _decimal(path: str, words: Sequence[str]) -> str:
     if points or any(word.count(",") > 1 for word in commas):
         raise InvalidInput(
             f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
-            "thousands, or say in the YAML file of --columns which one is the decimal"
+            "thousands, or say in the YAML file of --columns which one is the decimal mark"
         )
     if all(re.match(r"^[+-]?[1-9]\d{0,2},\d{3}$", word) for word in commas):
         raise InvalidInput(

@@ -20,7 +20,7 @@ from rubfric.rig.sensors import Ideal, Sensors, as_record, ideal, recorded, writ
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.sled import Sled, choose_weight, slide
 
-# A run that settles lasts for so many s, and slides so many mm, at least.
+# Least duration, s, and least travel, mm, of a run that settles.
 _LASTS, _SLIDES = 2.0, 3.0
 # No run takes longer, s.
 _LONGEST = 1000.0

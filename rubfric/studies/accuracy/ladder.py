@@ -45,9 +45,9 @@ _FOLDING = (1.0, 0.1, 0.01, 0.0)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
 _STEPS = (8, 16, 32, 64)
 _WAVELENGTHS, _WAVELENGTH_STEPS = (1, 2, 4, 8), 32
-# Marches are measured where so many columns or fewer suffice, on half of them.
+# Marches are measured where at most this number of columns suffices, on half of them.
 _MARCH_COLUMNS = 128
-# Repetitions of a rung for its time: until so many seconds are spent, or so many times.
+# Repetitions of a rung for its time: until this time is spent, s, or this number of times.
 _SECONDS, _TIMES = 0.5, 3
 
 

@@ -63,7 +63,7 @@ def profile_row(result: xr.Dataset) -> dict[str, Any]:
 
 
 def refusals(observations: pd.DataFrame) -> str:
-    """Return in a sentence how many scenes were refused, and why the first was; nothing where none was."""
+    """Return in a sentence how many scenes were refused, and why the first was; empty if none was."""
     refused = observations[observations["friction_coefficient"].isna()]
     if refused.empty:
         return ""
