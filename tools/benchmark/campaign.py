@@ -33,7 +33,7 @@ from rubfric.simulation import simulate
 from rubfric.studies.paper.observation import observe
 
 PROJECT = Path(__file__).resolve().parents[2]
-# Stands in for rubfric/runner/jobs.py: a job that only touches its outputs.
+# Replaces rubfric/runner/jobs.py: a job that only touches its outputs.
 TOUCH = """
 from pathlib import Path
 
@@ -178,7 +178,7 @@ def main() -> None:
     ]
     text = f"{tables.markdown(rows)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
     print(text)
-    tables.publish("campaign", text)
+    tables.publish("campaign", text, "performance.md")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Time every scene of the paper's grid in this process, start-up excluded: small strain, finite strain and auto.
 
-Beside them stands a bare contact solve, the least that any method needs in small strain: the closed-form compliance
+They are compared with a bare contact solve, the least that any method needs in small strain: the closed-form compliance
 of the layer at 256 surface points and the complementarity problem, without a mesh, fields or energies. All are
 timed scene by scene, in turn, so that their ratios hold on a noisy machine.
 """
@@ -125,7 +125,7 @@ def main() -> None:
         f"{tables.machine()}."
     )
     print(text)
-    tables.publish("scenes", text)
+    tables.publish("scenes", text, "performance.md")
 
 
 def written(times: list[float]) -> tuple[str, str, str]:

@@ -112,7 +112,7 @@ def main() -> None:
         f"cells), {finite:.0f} in finite strain (64 x {finite_rows} cells). {tables.machine()}."
     )
     print(text)
-    tables.publish("transient", text)
+    tables.publish("transient", text, "performance.md")
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"which claims are reproduced: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -69,7 +69,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"which claims are reproduced: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "page",
             },
         ),

@@ -20,7 +20,7 @@ from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
-# Where things stand in the report, which sorts by name.
+# Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
     figures="2 Figures of the paper",
@@ -69,7 +69,7 @@ if workflow.remote_exec:
 
 
 def package_files(*modules):
-    """Return a file that stands for the package's files behind some modules: a job that lists it reruns when the content
+    """Return a file that represents the package's files behind some modules: a job that lists it reruns when the content
     of one of them changes.
     """
     return stamp(".snakemake/sources", *modules)
@@ -97,12 +97,12 @@ def pictures(figure, caption, shows, category=REPORT.figures):
     """
 
     def labels(form):
-        def told(wildcards):
+        def described(wildcards):
             name = figure.format(**dict(wildcards.items()))
             words = shows(wildcards) if callable(shows) else shows
             return {"figure": name.replace("fig", "Fig. "), "shows": words, "as": form}
 
-        return told
+        return described
 
     return {
         kind: report(

@@ -129,7 +129,7 @@ def counts(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def summary(table: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Return the rows of the short table, headings first: for the README."""
+    """Return the rows of the short table, headings first: as on the page."""
     rows: list[tuple[str, ...]] = [("", "cases", *OUTCOMES, "largest closure", "slowest", "most memory")]
     found = counts(table)
     for entry in found.to_dict("records"):
