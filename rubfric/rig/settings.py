@@ -22,7 +22,17 @@ _WINDOWS = {"least_samples": Integer(low=20), "least_travel": Number(unit="mm")}
 
 @dataclass(frozen=True)
 class Tare:
-    """Readings of the unloaded sensors: found in the record (auto), at given times (s), given (N), or none."""
+    """Readings of the unloaded sensors.
+
+    Attributes
+    ----------
+    how : {"auto", "times", "given", "none"}
+        Found in the record, at given times, given, or none subtracted.
+    start, end : float
+        The given times, s.
+    normal, traction : float
+        The given readings, N.
+    """
 
     how: str = "auto"
     start: float = 0.0
@@ -33,9 +43,16 @@ class Tare:
 
 @dataclass(frozen=True)
 class Bearing:
-    """Drag of the sled's bearings: ``force`` (N) plus ``coefficient`` times the normal force, +- ``uncertainty`` (N).
+    """Drag of the sled's bearings: ``force`` plus ``coefficient`` times the normal force.
 
-    Where ``file`` names the record of an unloaded pull, the force, as it depends on speed, comes from there.
+    Attributes
+    ----------
+    force, uncertainty : float
+        N.
+    coefficient : float
+        Dimensionless.
+    file : str
+        Record of an unloaded pull, from which the force over speed is taken; empty for none.
     """
 
     force: float = 0.0

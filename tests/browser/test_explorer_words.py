@@ -9,6 +9,7 @@ from selenium.webdriver.remote.webdriver import WebDriver
 from visit import open_explorer
 
 from rubfric.figures import style
+from rubfric.results.selection import written
 
 THIN = "\u202f"
 
@@ -22,7 +23,7 @@ def call(browser: WebDriver, function: str, *values: Any) -> str:
 def test_numbers_are_written_as_in_the_figures(browser: WebDriver, whole: Any) -> None:
     open_explorer(browser, whole.path)
     for value in (0.1, 0.30000000000000004, 1.0, 500.0, 9999.5, 10000.0, 1234567.25):
-        assert call(browser, "plain", value) == style.written(value).replace("\N{NO-BREAK SPACE}", " ")
+        assert call(browser, "plain", value) == written(value).replace("\N{NO-BREAK SPACE}", " ")
     for share in (0.0123, 0.00079, 0.01, 0.099, 0.12, 0.2512, 1.5):
         assert call(browser, "relative", 1.0, share) == style.percent(share).replace("\N{NO-BREAK SPACE}", " ")
 

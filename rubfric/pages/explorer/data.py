@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
-from rubfric.pages.explorer.peaks import find_peak
 from rubfric.pages.explorer.pictures import Store, picture
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import check_variables, find_peak, position
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
 # Numbers of every scene: variable, name in the page.
@@ -88,15 +88,8 @@ def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, 
 
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     """Return the campaign at one ratio, over scale, pressure and speed, without those of which nothing was run."""
-    lacking = [name for name in (*_SCALARS, "amplitude", "wavenumber") if name not in campaign]
-    if lacking:
-        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
-    known = np.asarray(campaign["aspect"].values, dtype=np.float64)
-    found = np.flatnonzero(np.isclose(known, aspect, rtol=1e-9, atol=0.0))
-    if not found.size:
-        listed = ", ".join(f"{number:.12g}" for number in np.sort(known))
-        raise InvalidInput(f"the height-to-width ratio {aspect:g} is not in the campaign, which has {listed}")
-    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=int(found[0]), drop=True)
+    check_variables(campaign, *_SCALARS, "amplitude", "wavenumber")
+    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=position(campaign, "aspect", aspect), drop=True)
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
@@ -132,7 +125,7 @@ def _curves(grid: xr.Dataset) -> dict[str, Any]:
 
 def _curve(friction: xr.DataArray, error: xr.DataArray) -> dict[str, Any]:
     pairs = zip(friction.values, error.values, strict=True)
-    peaks = [find_peak(*pair) for pair in pairs]
+    peaks = [find_peak(*pair)._asdict() for pair in pairs]
     return {"friction": _plain(friction.values), "error": _plain(error.values), "peaks": peaks}
 
 

@@ -25,23 +25,6 @@ def figure() -> Figure:
     return drawn
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (0.1, "0.1"),
-        (0.30000000000000004, "0.3"),
-        (10.0, "10"),
-        (1000.0, "1000"),
-        (10000.0, "10\N{NO-BREAK SPACE}000"),
-        (1234567.5, "1\N{NO-BREAK SPACE}234\N{NO-BREAK SPACE}567.5"),
-        (0.0, "0"),
-        (-12000.0, "-12\N{NO-BREAK SPACE}000"),
-    ],
-)
-def test_numbers_are_written_plainly(value: float, text: str) -> None:
-    assert style.written(value) == text
-
-
 def test_columns_of_the_journal() -> None:
     np.testing.assert_allclose(np.array([style.COLUMN, style.DOUBLE_COLUMN]) * 25.4, [88.0, 180.0], rtol=1e-12)
 

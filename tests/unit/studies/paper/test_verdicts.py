@@ -8,8 +8,7 @@ import pytest
 
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.claims import claims_page, claims_text
-from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import Evidence
+from rubfric.studies.paper.claims import CLAIMS, Evidence
 from rubfric.studies.paper.verdicts import (
     EVERY,
     FAILS,
