@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 from rubfric import checks
 from rubfric.arrays import Real
 from rubfric.errors import InvalidInput
+from rubfric.road.road import Waves
 
 
 @dataclass(frozen=True)
 class SineScale:
-    """One harmonic of a road.
+    """A road of one wave.
 
     Parameters
     ----------
@@ -40,6 +41,16 @@ class SineScale:
         return 2.0 * math.pi / self.wavenumber
 
     @property
+    def period(self) -> float:
+        """The wavelength, mm."""
+        return self.wavelength
+
+    @property
+    def waves(self) -> Waves:
+        """The one wave, of phase zero."""
+        return Waves(np.array([self.amplitude]), np.array([self.wavenumber]), np.zeros(1))
+
+    @property
     def steepest_slope(self) -> float:
         """A k, dimensionless."""
         return self.amplitude * self.wavenumber
@@ -51,6 +62,10 @@ class SineScale:
     def slope(self, position: ArrayLike) -> Real:
         """Return s'(x), dimensionless, at positions in mm of any shape."""
         return self.steepest_slope * np.cos(self.wavenumber * np.asarray(position, dtype=float))
+
+    def curvature(self, position: ArrayLike) -> Real:
+        """Return s''(x), 1/mm, at positions in mm of any shape."""
+        return -self.wavenumber * self.wavenumber * self.height(position)
 
     def excitation_frequency(self, velocity: float) -> float:
         """Return k v, rad/s: the frequency that the rubber feels when it slides at ``velocity`` mm/s."""

@@ -85,7 +85,7 @@ class March:
         self.scene, self.procedure, self.decision = scene, procedure, decision
         numerics, road = scene.numerics, scene.road
         self.block = Block.graded(
-            road.wavelength,
+            road.period,
             scene.height,
             procedure.columns,
             scene.plane,
@@ -194,7 +194,7 @@ class March:
         last = dict(zip(COLUMNS, self._records[-1], strict=True))
         return (
             f"{self.scene.name}: step {at} of at most {len(self._steps.duration)} ({PHASES[int(last['phase'])]}), "
-            f"slid {last['slid'] / self.scene.road.wavelength:.2f} wavelengths, "
+            f"slid {last['slid'] / self.scene.road.period:.2f} wavelengths, "
             f"friction {last['friction_contact']:.4f}, {pace:.1f} steps/s"
         )
 

@@ -109,7 +109,7 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
     harmonics : ndarray of int, shape (n,)
         Ascending, from 1 to columns / 2.
     """
-    wavenumber = 2.0 * np.pi / block.width * harmonics
+    wavenumber = block.wavenumbers[harmonics]
     chain = _weigh(block, harmonics, stiffness_moduli(material, wavenumber * velocity, block.plane))
     active = _active(block, wavenumber)
     # u_x vanishes at the top: its harmonics are held, so only the entry yy is inverted there.
