@@ -127,7 +127,8 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
     moduli = (shear, dilatation) if block.pointwise else (shear,)
     chain = _weigh(block, harmonics, moduli)
     active = _active(block, wavenumber)
-    heights, half = np.diff(block.row_positions) / block.column_width, np.pi / block.columns * harmonics
+    heights = np.diff(block.row_positions) / block.column_width
+    across, along = np.sin(np.pi / block.columns * harmonics), np.cos(np.pi / block.columns * harmonics)
     # u_x vanishes at the top: its harmonics are held, so only the entry yy is inverted there.
     zero = np.zeros(active[-1], dtype=complex)
     inverse = (zero, zero, 1.0 / chain.own[2, -1, : active[-1]])
@@ -136,14 +137,16 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
         above, count = active[row + 1], active[row]
         xx, xy, yy = chain.own[:, row, :count]
         step, correction = _eliminate(chain.upward[:, row, :above], inverse)
+        gradient, softness = np.array((across, along / heights[row])), 1.0 / (dilatation * heights[row])
         if not block.pointwise:
-            across, along = np.sin(half[:above]), np.cos(half[:above]) / heights[row]
-            _add_mean_dilatation(step, correction, inverse, (across, along), 1.0 / (dilatation[:above] * heights[row]))
+            _add_mean_dilatation(step, correction, inverse, gradient[:, :above], softness[:above])
         transfer.append(step)
         for entry, part in zip((xx, xy, yy), correction, strict=True):
             entry[:above] -= part
         determinant = xx * yy - xy * xy
         inverse = (yy / determinant, -xy / determinant, xx / determinant)
+        if not block.pointwise:  # for the harmonics that have faded above, the row above is at rest
+            _stiffen(inverse, gradient[:, above:count], softness[above:count], slice(above, count))
     _, coupling, compliance = inverse
     # A pressure p over one column acts on its node as the force p times the column's width.
     return HarmonicResponse(harmonics, compliance * block.column_width, coupling / compliance, transfer[::-1])
@@ -211,7 +214,7 @@ def _add_mean_dilatation(
     step: Complex,
     correction: tuple[Complex, Complex, Complex],
     inverse: tuple[Complex, Complex, Complex],
-    gradient: tuple[Real, Real],
+    gradient: Real,
     softness: Complex,
 ) -> None:
     """Add to the results of ``_eliminate``, in place, what the mean dilatation of the cells adds.
@@ -222,8 +225,8 @@ def _add_mean_dilatation(
         -M^-1 B^T, to which -M^-1 d w^T / s is added.
     correction, inverse : tuple of ndarray of complex, each of shape (m,)
         xx, xy, yy of B M^-1 B^T, from which w w^T / s is taken, and of M^-1.
-    gradient : tuple of ndarray, each of shape (m,)
-        d over the columns' width; c is its mirror image, with the sign of the y component turned.
+    gradient : ndarray, shape (2, m)
+        d, times the width of a column; c is d with its y component turned.
     softness : ndarray of complex, shape (m,)
         1 / (L* h), h being the height of the cells over their width.
     """
@@ -236,3 +239,13 @@ def _add_mean_dilatation(
     step -= lever[:, None] * scaled
     for part, (a, b) in zip(correction, ((0, 0), (0, 1), (1, 1)), strict=True):
         part -= w[a] * scaled[b]
+
+
+def _stiffen(inverse: tuple[Complex, Complex, Complex], gradient: Real, softness: Complex, part: slice) -> None:
+    """Make M^-1 the inverse of M + c c^T / softness, in place, for a part of the harmonics (Sherman and Morrison)."""
+    across, along = gradient[0], -gradient[1]
+    first, mixed, last = (entry[part] for entry in inverse)
+    lever = (first * across + mixed * along, mixed * across + last * along)  # M^-1 c
+    scale = 1.0 / (softness + across * lever[0] + along * lever[1])
+    for entry, (a, b) in zip(inverse, ((0, 0), (0, 1), (1, 1)), strict=True):
+        entry[part] -= scale * lever[a] * lever[b]
