@@ -55,14 +55,7 @@ def march(
         With the scene, the step and the residual, where halving a step does not help, or where columns or steps turn
         out too few: hardly a node touches the road, or the routes to friction contradict each other.
     """
-    given = procedure or Procedure()
-    decision = decide(scene)
-    finite = decision.kinematics == "finite"
-    require_digits(scene, finite)
-    require_columns(scene, given.columns, FEWEST_NODES)
-    if finite:
-        require_height(scene)
-    marching = March(scene, given, decision, STEPPERS[decision.kinematics], MECHANICS[decision.kinematics].solve)
+    marching = begin(scene, procedure or Procedure())
     if restart is not None and restart.exists():
         marching.restore(restart)
     started = said = written = time.perf_counter()
@@ -81,7 +74,7 @@ def march(
     found = Transient(
         scene,
         marching.procedure,
-        decision.kinematics,
+        marching.decision.kinematics,
         marching.block,
         marching.records,
         marching.saturation,
@@ -89,6 +82,28 @@ def march(
     )
     _require_sound(found)
     return found
+
+
+def begin(scene: Scene, procedure: Procedure) -> March:
+    """Return a march of which no step is done yet, in the kinematics that the scene asks for or needs.
+
+    Parameters
+    ----------
+    scene : Scene
+    procedure : Procedure
+
+    Raises
+    ------
+    InvalidInput
+        As ``march`` does.
+    """
+    decision = decide(scene)
+    finite = decision.kinematics == "finite"
+    require_digits(scene, finite)
+    require_columns(scene, procedure.columns, FEWEST_NODES)
+    if finite:
+        require_height(scene)
+    return March(scene, procedure, decision, STEPPERS[decision.kinematics], MECHANICS[decision.kinematics].solve)
 
 
 def _require_sound(found: Transient) -> None:
