@@ -10,7 +10,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric.mechanics.march.march import March, wavelength_means
+from rubfric.marching import begin
+from rubfric.mechanics.march.saturation import wavelength_means
 from rubfric.road.sine import SineScale
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.procedure import Procedure
@@ -43,7 +44,7 @@ def steady(scene: Scene) -> float:
 
 def mean(scene: Scene, start: str, columns: int, steps: int, wavelengths: int) -> float:
     """Return friction averaged over the last wavelength of a march."""
-    march = March(
+    march = begin(
         scene,
         Procedure(
             start=start,
