@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig5, style
