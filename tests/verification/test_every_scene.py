@@ -15,6 +15,8 @@ from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.scene.scene import Numerics, Scene
 from rubfric.simulation import solve
 
+pytestmark = pytest.mark.thorough
+
 SceneMaker = Callable[..., Scene]
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config" / "config.yaml")
 HEAVY = 10.0

@@ -79,6 +79,7 @@ def test_routes_of_a_filled_road_agree_on_any_mesh(
     assert slide(velocity, pressure, plane, columns, 1.2).closure < 1e-5
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), PART)
 def test_friction_of_partial_contact_settles(slide, velocity: float, pressure: float, plane: str) -> None:

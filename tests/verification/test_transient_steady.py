@@ -9,8 +9,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from begin_march import begin
 
-from rubfric.mechanics.march.march import March, wavelength_means
+from rubfric.mechanics.march.march import wavelength_means
 from rubfric.road.sine import SineScale
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Numerics, Scene
@@ -42,7 +43,7 @@ def steady(scene: Scene) -> float:
 
 def mean(scene: Scene, start: str, columns: int, steps: int, wavelengths: int) -> float:
     """Return friction averaged over the last wavelength of a march."""
-    march = March(
+    march = begin(
         scene,
         Procedure(
             start=start,
@@ -79,7 +80,9 @@ def test_steady_sliding_in_small_strain_goes_on_so_at_high_speed(
 
 
 @PLANES
-@pytest.mark.parametrize(("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), (10.0, 0.5, 3)])
+@pytest.mark.parametrize(
+    ("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), pytest.param(10.0, 0.5, 3, marks=pytest.mark.thorough)]
+)
 def test_pressed_and_slid_in_finite_strain(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float, wavelengths: int
 ) -> None:
@@ -89,7 +92,9 @@ def test_pressed_and_slid_in_finite_strain(
 
 
 @PLANES
-@pytest.mark.parametrize(("velocity", "pressure"), [(100.0, 0.5), (1000.0, 5.0)])
+@pytest.mark.parametrize(
+    ("velocity", "pressure"), [(100.0, 0.5), pytest.param(1000.0, 5.0, marks=pytest.mark.thorough)]
+)
 def test_steady_sliding_in_finite_strain_goes_on_so(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float
 ) -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rubfric import marching
 from rubfric.marching import march
-from rubfric.mechanics.march import result as transient
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 
@@ -35,7 +35,7 @@ def test_means_are_those_of_whole_wavelengths_at_full_speed(paper_scene: SceneMa
 
 def test_progress_is_told(paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch) -> None:
     lines: list[str] = []
-    monkeypatch.setattr(transient, "_SILENCE", 0.0)
+    monkeypatch.setattr(marching, "_SILENCE", 0.0)
     march(paper_scene(10.0, 0.5), QUICK, progress=lines.append)
     assert len(lines) == 68
     assert "scale1_v10_p0.5_aspect0.75_strain: step 1 of at most 68 (press), slid 0.00 wavelengths" in lines[0]
