@@ -105,6 +105,7 @@ def _on_all_meshes(slide, velocity: float, pressures: Sequence[float], plane: st
     )
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), [*FILLED, *PART])
 def test_growth_of_the_rows_hardly_matters(slide, velocity: float, pressure: float, plane: str) -> None:
@@ -113,6 +114,7 @@ def test_growth_of_the_rows_hardly_matters(slide, velocity: float, pressure: flo
     assert coarse.stress_power == pytest.approx(fine.stress_power, rel=1.5e-3)
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), [*FILLED, *PART])
 def test_height_of_the_first_row_hardly_matters(slide, velocity: float, pressure: float, plane: str) -> None:

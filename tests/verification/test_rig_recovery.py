@@ -81,9 +81,8 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize(
-    "case", [pytest.param(case, marks=pytest.mark.thorough) if "creeping" in case else case for case in CASES]
-)
+@pytest.mark.thorough
+@pytest.mark.parametrize("case", CASES)
 def test_intervals_hold_the_truth_as_often_as_they_say(case: str, friction: FrictionMap) -> None:
     speed, traction, kind = CASES[case]
     pressure = 1.0

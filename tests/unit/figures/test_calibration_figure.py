@@ -76,6 +76,7 @@ def test_refused_runs_need_not_be_judged(make_calibration: Maker) -> None:
     assert told(calibration.draw(table))[0] == "inside the paper's grid: 2 of 3 covered (66 %), median ratio 4"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "sets", [("ladder",), ("ladder", "inside", "outside"), ("ladder", "inside", "outside", "a set of my own", "more")]
 )
@@ -90,6 +91,7 @@ def test_no_words_cover_each_other(
     assert overlaps(figure) == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "change",
     [{"error": 0.0}, {"estimate": 0.0}, {"error": 0.0, "estimate": 0.0}, {"reference": 0.0}, {"reference_error": 1.0}],

@@ -78,6 +78,7 @@ def test_nothing_but_zeros_is_drawn(make_ladder: Maker, tmp_path: Path) -> None:
     style.save(pareto.draw(table), tmp_path / "zeros.pdf")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("knobs", [KNOBS, ("preset",), ("mesh", "another")])
 def test_no_words_cover_each_other(
     make_ladder: Maker, knobs: tuple[str, ...], overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path

@@ -42,6 +42,7 @@ def test_every_case_has_its_mark_in_the_look_of_its_outcome(figure: Figure, tabl
     assert len({square.get_facecolor() for square in squares}) == len(_LOOKS)
 
 
+@pytest.mark.thorough
 def test_map_is_saved(figure: Figure, tmp_path: Path) -> None:
     save(figure, tmp_path / "map.png", tmp_path / "map.pdf")
     assert (tmp_path / "map.png").stat().st_size > 1e5
