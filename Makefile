@@ -5,9 +5,9 @@
 # make check     formatting, lint, types, workflow lint
 # make bench     time scenes in-process, the campaign against its floor, and planning; writes the tables of the pages
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
-# make stability try the matrix of extremes, draw its map; writes its table of the README
+# make stability run the matrix of extremes and draw its map; writes the page on it
 # make report    gather every figure and table with its caption in one page, results/report.html
-# make docs      write config/README.md and the picture of the architecture anew
+# make docs      write config/README.md, the schema of the config and the picture of the architecture anew
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3

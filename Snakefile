@@ -3,12 +3,13 @@
 #   snakemake -j2 --configfile config/minimal.yaml      a campaign of under a minute
 import sys
 
-from snakemake.utils import min_version, validate
+from snakemake.utils import min_version
 
 from rubfric.files import check_folder, check_place
 from rubfric.config.campaign import Campaign
+from rubfric.config.overlay import read_yaml
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
-from rubfric.runner.records import check_records
+from rubfric.runner.reruns import check_records
 from rubfric.rig.files import rig_files
 
 min_version("9.0")
@@ -20,8 +21,11 @@ configfile: "config/config.yaml"
 report: "workflow/report/workflow.rst"
 
 
-# In our own words first: one sentence. The schema, where every key is described, then finds nothing to add.
+# A wrong config is refused in one sentence. Snakemake has read the files already, but not whether a key is there twice.
 try:
+    if workflow.is_main_process:
+        for path in workflow.configfiles:
+            read_yaml(path)
     CAMPAIGN = Campaign.from_config(config)
     RIG_FILES = rig_files(CAMPAIGN.rig)
 except InvalidInput as error:
@@ -32,7 +36,6 @@ try:
     check_records(".snakemake/metadata")
 except (NotWritten, BrokenResult) as error:
     sys.exit(f"No results can be made: {error}.")
-validate(config, "workflow/schemas/config.schema.yaml", set_default=False)
 
 
 include: "workflow/rules/common.smk"

@@ -23,7 +23,7 @@ _HOMES = {
     "InvalidInput": "errors",
     "Material": "rubber.material",
     "NotConverged": "errors",
-    "Numerics": "scene.scene",
+    "Numerics": "scene.numerics",
     "RubfricError": "errors",
     "Scene": "scene.scene",
     "SineScale": "road.sine",

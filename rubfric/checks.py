@@ -1,13 +1,14 @@
 """One sentence for every bad value: the key, the value, and what is allowed.
 
-Numbers are brought to one canonical form here (twelve significant digits), so that 0.1, 1.0e-1 and
-0.10 are one number and 0.30000000000000004 never reaches a file name.
+Numbers are brought to one canonical form here (twelve significant digits), so that 0.1, 1.0e-1 and 0.10 are one number
+and 0.30000000000000004 never reaches a file name.
 """
 
 from __future__ import annotations
 
 import difflib
 import math
+import reprlib
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any
@@ -17,12 +18,11 @@ import numpy as np
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
-# Words that stand in file names, which have room for 255 bytes.
-LONGEST_WORD = 100
-# What a message shows of a wrong value.
+# What a message shows of a wrong value, which may be nested without end.
 _MOST_SHOWN = 80
-# Bounds on every quantity that must be positive: their products stay far from overflow and underflow.
-SMALLEST, LARGEST = 1e-30, 1e30
+_SHORT = reprlib.Repr()
+_SHORT.maxlevel, _SHORT.maxdict, _SHORT.maxlist, _SHORT.maxtuple = 3, 16, 16, 16
+_SHORT.maxstring = _SHORT.maxlong = _SHORT.maxother = 4 * _MOST_SHOWN
 
 
 def number(key: str, value: Any) -> float:
@@ -53,66 +53,6 @@ def _yaml_hint(text: str) -> str:
     return f" (YAML reads it as text; write {written})"
 
 
-def positive(key: str, value: Any, unit: str = "") -> float:
-    """Return a canonical number greater than zero."""
-    checked = number(key, value)
-    if checked <= 0.0:
-        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be greater than 0")
-    if not SMALLEST <= checked <= LARGEST:
-        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must lie between {SMALLEST:g} and {LARGEST:g}")
-    return checked
-
-
-def at_least(key: str, value: Any, low: float, unit: str = "") -> float:
-    """Return a canonical number of at least ``low``."""
-    checked = number(key, value)
-    if checked < low:
-        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be at least {low:g}")
-    return checked
-
-
-def at_most(key: str, value: Any, high: float, unit: str = "") -> float:
-    """Return a canonical number of at most ``high``."""
-    checked = number(key, value)
-    if checked > high:
-        raise InvalidInput(f"{key} is {checked:g}{_unit(unit)}, but must be at most {high:g}")
-    return checked
-
-
-def between(key: str, value: Any, low: float, high: float) -> float:
-    """Return a canonical number strictly between ``low`` and ``high``."""
-    checked = number(key, value)
-    if not low < checked < high:
-        raise InvalidInput(f"{key} is {checked:g}, but must lie between {low:g} and {high:g}, both excluded")
-    return checked
-
-
-def whole(key: str, value: Any, low: int, high: int | None = None) -> int:
-    """Return a whole number of at least ``low`` and, where it is given, at most ``high``."""
-    checked = number(key, value)
-    if checked != int(checked) or checked < low:
-        raise InvalidInput(f"{key} is {checked:g}, but must be a whole number of at least {low}")
-    if high is not None and checked > high:
-        raise InvalidInput(f"{key} is {checked:g}, but must be at most {high}")
-    return int(checked)
-
-
-def multiple(key: str, value: Any, base: int, high: int | None = None) -> int:
-    """Return a positive whole multiple of ``base``, of at most ``high`` where that is given."""
-    checked = whole(key, value, 1, high)
-    if checked % base:
-        raise InvalidInput(f"{key} is {checked}, but must be a multiple of {base}")
-    return checked
-
-
-def one_of(key: str, value: Any, allowed: Iterable[str]) -> str:
-    """Return ``value`` if it is one of the words ``allowed``."""
-    words = list(allowed)
-    if value not in words:
-        raise InvalidInput(f"{key} is {shown(value)}, but must be one of {', '.join(words)}{_suggest(value, words)}")
-    return str(value)
-
-
 def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[str] = ()) -> Mapping[str, Any]:
     """Return the mapping ``given`` if its keys are all ``allowed`` and none of ``required`` is missing."""
     names = list(allowed)
@@ -121,7 +61,7 @@ def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[
     for name in given:
         if name not in names:
             raise InvalidInput(
-                f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{_suggest(name, names)}"
+                f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{suggestion(name, names)}"
             )
     for name in required:
         if name not in given:
@@ -129,39 +69,19 @@ def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[
     return given
 
 
-def grid(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
-    """Return a non-empty list of distinct positive numbers, canonical and in ascending order."""
-    if not isinstance(values, (list, tuple)):
-        raise InvalidInput(f"{key} is {values!r}, but must be a list of numbers")
-    if not values:
-        raise InvalidInput(f"{key} is empty, but must hold at least one number")
-    numbers = [positive(f"{key}[{index}]", value, unit) for index, value in enumerate(values)]
-    seen: dict[float, int] = {}
-    for index, value in enumerate(numbers):
-        if value in seen:
-            raise InvalidInput(
-                f"{key}[{index}] is {value:g}{_unit(unit)}, the same as {key}[{seen[value]}]; each may stand once"
-            )
-        seen[value] = index
-    return tuple(sorted(numbers))
-
-
-def text(key: str, value: Any) -> str:
-    """Return a word that is fit to stand in a file name."""
-    if not isinstance(value, str) or not value or not all(c.isascii() and (c.isalnum() or c in "-_") for c in value):
-        raise InvalidInput(f"{key} is {shown(value)}, but must be a word of letters, digits, '-' and '_'")
-    if len(value) > LONGEST_WORD:
-        raise InvalidInput(f"{key} is {shown(value)}, {len(value)} letters long, but must have at most {LONGEST_WORD}")
-    return value
-
-
 def shown(value: Any) -> str:
-    """Return a value as a message shows it, cut short where it is long."""
+    """Return a value as a message shows it, cut short where it is long or deeply nested."""
     try:
-        text = repr(value)
+        text = _SHORT.repr(value)
     except (ValueError, RecursionError):  # whole numbers of thousands of digits, for one
         return f"a {type(value).__name__} too long to show"
     return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+
+
+def with_unit(value: Any, unit: str) -> str:
+    """Return a number, or whatever else it is, with its unit as a message shows it."""
+    text = f"{value:g}" if isinstance(value, float) else shown(value)
+    return f"{text} {unit}" if unit else text
 
 
 def written(value: float) -> str:
@@ -176,10 +96,8 @@ def written(value: float) -> str:
     return f"{mantissa.rstrip('0').rstrip('.')}e{int(power)}"
 
 
-def _unit(unit: str) -> str:
-    return f" {unit}" if unit else ""
-
-
-def _suggest(value: Any, words: list[str]) -> str:
-    close = difflib.get_close_matches(shown(value).strip("'\""), words, n=1)
+def suggestion(value: Any, words: list[str]) -> str:
+    """Return the word that may have been meant: one that ``value`` has as a part, or else the nearest in spelling."""
+    text = shown(value).strip("'\"")
+    close = [word for word in words if word in text.split("_")] or difflib.get_close_matches(text, words, n=1)
     return f" (did you mean {close[0]}?)" if close else ""

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import rubfric
 from rubfric.config import campaign as campaigns
-from rubfric.config.choices import STARTS
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
+from rubfric.scene.procedure import STARTS
 from rubfric.scene.scene import KINEMATICS, Scene
 
 _EXAMPLE = """\

@@ -13,7 +13,8 @@ from xdist.scheduler import LoadScopeScheduling
 
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 # Zhou, Wang and Wei 2019, Table 1: shares of the instantaneous shear modulus, and relaxation times in s.
 TABLE_1_FRACTIONS = (0.000592717, 0.002536278, 0.024459921, 0.17432432, 0.387971288, 0.408678482)

@@ -12,30 +12,14 @@ from itertools import product
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.choices import (
-    AspectStudy,
-    FigureChoice,
-    TransientChoice,
-    read_aspect_study,
-    read_figures,
-    read_transient,
-    scale_number,
-)
+from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
 from rubfric.config.overlay import overlaid
-from rubfric.config.presets import read_numerics
-from rubfric.config.readings import ClaimsChoice, read_claims
-from rubfric.config.rigchoice import RigChoice, read_rig
-from rubfric.errors import InvalidInput
-from rubfric.road.sine import SineScale, scales_from_config
-from rubfric.rubber.material import PLANES, Material
-from rubfric.scene.scene import KINEMATICS, Numerics, Scene
-
-_KEYS = (
-    *("results", "rubber", "road", "plane", "kinematics"),
-    *("grid", "aspect_study", "transient", "figures", "rig", "claims", "numerics", "presets", "rubbers", "roads"),
-)
-# Systems allow 4096 letters or fewer for a path and 255 for each name in it; the outputs take their share.
-_LONGEST_PATH, _LONGEST_NAME = 1000, 255
+from rubfric.config.references import check_references, numerics_of, scale_number
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import Material
+from rubfric.rules import Choice
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -92,30 +76,27 @@ class Campaign:
     @classmethod
     def from_config(cls, config: Mapping[str, Any]) -> Campaign:
         """Check a config whole and read it; InvalidInput says in one sentence what is wrong with it."""
-        checks.known_keys("config", config, _KEYS, _KEYS)
-        materials = {name: Material.from_config(name, entry) for name, entry in _catalogue(config, "rubbers").items()}
-        roads = {name: scales_from_config(name, entry) for name, entry in _catalogue(config, "roads").items()}
-        road = roads[checks.one_of("road", config["road"], roads)]
-        keys = ("velocities", "pressures", "aspect")
-        grid = checks.known_keys("grid", config["grid"], keys, keys)
-        velocities = checks.grid("grid.velocities", grid["velocities"], "mm/s")
-        pressures = checks.grid("grid.pressures", grid["pressures"], "MPa")
-        numerics, presets = read_numerics(config["numerics"], config["presets"])
+        given = Config.read("", config)
+        materials = {name: Material(name=name, **entry.given()) for name, entry in given.rubbers.items()}
+        roads = {name: tuple(SineScale(**scale.given()) for scale in entry) for name, entry in given.roads.items()}
+        road = roads[Choice(words=roads).check("road", given.road)]
+        check_references(given, len(road))
+        numerics, presets = numerics_of(given)
         return cls(
-            results=_folder(config["results"]),
-            material=materials[checks.one_of("rubber", config["rubber"], materials)],
-            road_name=config["road"],
+            results=given.results,
+            material=materials[Choice(words=materials).check("rubber", given.rubber)],
+            road_name=given.road,
             road=road,
-            plane=checks.one_of("plane", config["plane"], PLANES),
-            kinematics=checks.one_of("kinematics", config["kinematics"], KINEMATICS),
-            velocities=velocities,
-            pressures=pressures,
-            aspect=checks.positive("grid.aspect", grid["aspect"]),
-            aspect_study=read_aspect_study(config["aspect_study"], len(road)),
-            transient=read_transient(config["transient"], len(road)),
-            figures=read_figures(config["figures"], len(road), velocities, pressures),
-            rig=read_rig(config["rig"]),
-            claims=read_claims(config["claims"], presets),
+            plane=given.plane,
+            kinematics=given.kinematics,
+            velocities=given.grid.velocities,
+            pressures=given.grid.pressures,
+            aspect=given.grid.aspect,
+            aspect_study=given.aspect_study,
+            transient=given.transient,
+            figures=given.figures,
+            rig=given.rig,
+            claims=given.claims,
             numerics=numerics,
             presets=presets,
         )
@@ -153,7 +134,7 @@ class Campaign:
             Relative accuracy of friction, instead of that of the preset or of the numerics.
         """
         index = scale_number("scale", scale, len(self.road))
-        numerics = self.presets[checks.one_of("preset", preset, self.presets)] if preset else self.numerics
+        numerics = self.presets[Choice(words=self.presets).check("preset", preset)] if preset else self.numerics
         return Scene(
             scale=index,
             road=self.road[index - 1],
@@ -184,7 +165,7 @@ class Campaign:
 
     def reading(self, name: str) -> Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
-        other = self.claims.readings[checks.one_of("reading", name, self.claims.readings)]
+        other = self.claims.readings[Choice(words=self.claims.readings).check("reading", name)]
         return replace(
             self,
             material=other.rubber(self.material),
@@ -212,7 +193,7 @@ class Campaign:
 
     def field_scenes(self) -> dict[str, Scene]:
         """Return the scenes whose fields are drawn, by name; pressure by pressure."""
-        chosen = self.figures
+        chosen = self.figures.fields
         scenes = (
             self.scene(chosen.scale, velocity, pressure)
             for pressure, velocity in product(chosen.pressures, chosen.velocities)
@@ -232,24 +213,4 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    return Campaign.from_config(overlaid(paths, _KEYS))
-
-
-def _catalogue(config: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    entries = config[key]
-    if not isinstance(entries, Mapping) or not entries:
-        raise InvalidInput(f"{key} is {checks.shown(entries)}, but must hold at least one entry by name")
-    for name in entries:
-        checks.text(f"name in {key}", name)
-    return entries
-
-
-def _folder(value: Any) -> str:
-    if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-        raise InvalidInput(f"results is {checks.shown(value)}, but must be the path of a folder, without braces")
-    if len(os.fsencode(value)) > _LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > _LONGEST_NAME:
-        raise InvalidInput(
-            f"results is {checks.shown(value)}, but must be a path of at most {_LONGEST_PATH} letters, "
-            f"{_LONGEST_NAME} in each name"
-        )
-    return value.rstrip("/") or "/"
+    return Campaign.from_config(overlaid(paths, Config.model_fields))

@@ -48,15 +48,15 @@ def bands(panel: Axes) -> list[Any]:
 
 
 def band_handle(values: Array, errors: Array, colour: Any = "0.3") -> Patch:
-    """Return the legend's entry for bands, which tells the largest of the relative errors.
+    """Return the legend's entry for bands with the largest of the relative errors.
 
-    Bands may be thinner than the lines inside them, so the number has to be told.
+    Bands may be thinner than the lines inside them, so the number is needed.
 
     Parameters
     ----------
     values, errors : numpy.ndarray, of one shape
         All friction coefficients that a figure shows, and their absolute errors. A coefficient of zero has no relative
-        error and counts for nothing.
+        error and is left out.
     colour : matplotlib colour
     """
     shown = np.abs(values) > NEGLIGIBLE  # False for NaN
@@ -71,7 +71,13 @@ def band_handle(values: Array, errors: Array, colour: Any = "0.3") -> Patch:
 
 
 def upper(values: Array, errors: Array) -> Array:
-    """Return the upper edges of bands, which the ordinate has to hold; the values alone where errors are unknown."""
+    """Return the upper edges of bands, for the limits of the ordinate.
+
+    Parameters
+    ----------
+    values, errors : numpy.ndarray, of one shape
+        Friction coefficients and their absolute errors, which count as 0 where unknown.
+    """
     return values + np.where(np.isfinite(errors), errors, 0.0)
 
 

@@ -1,4 +1,4 @@
-"""Estimated against true error of friction: whether the estimate can be believed."""
+"""Estimated against true error of friction: whether the estimate can be trusted."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _MARKERS = {"small": "o", "finite": "s", "auto": "D"}
 _OTHER_MARKER = "X"
 # In inches: the height of the panels, of a line of the legend above, and of a line of the note.
 _HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.9, 0.16, 0.11
-_SMALL_TYPE, _NOTE_WIDTH = 6.0, 150
+_NOTE_WIDTH = 150
 _MARGIN = 1.5
 # The ratios that are shown.
 _SMALLEST, _LARGEST = 0.01, 300.0
@@ -54,9 +54,9 @@ def draw(table: pd.DataFrame) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Colours tell the sets, markers the kinematics; whiskers show the uncertainty of the true error that the
+        A colour per set, a marker per kinematics; whiskers show the uncertainty of the true error that the
         reference brings. Points above the full line are covered. The second panel has the share of runs whose ratio is
-        no greater than the abscissa. The legend tells the coverage and the median ratio of each set.
+        no greater than the abscissa. The legend gives the coverage and the median ratio of each set.
 
     Raises
     ------
@@ -80,12 +80,12 @@ def draw(table: pd.DataFrame) -> Figure:
     panels.entitle(axes, ["each run", "all runs of a set"])
     handles = _handles(known, sets, colours, dashes)
     figure.legend(handles=handles, loc="outside upper center", ncols=2)
-    figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL_TYPE)
+    panels.write_note(figure, note)
     return figure
 
 
 def _known(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the runs with both errors; the rest of the docstring of ``draw`` tells what is refused."""
+    """Return the runs with both errors; the docstring of ``draw`` has what is refused."""
     name = "table of calibration"
     check_columns(table, name, ("set",), ("error", "estimate", "reference_error"), ("reference",))
     known = table[np.isfinite(table["error"]) & np.isfinite(table["estimate"])]
@@ -160,7 +160,7 @@ def _marker(kinematics: Any) -> str:
 def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any], dashes: Sequence[Any]) -> list[Artist]:
     """Return the sets with their numbers in a first column of the legend, and what else is drawn in a second."""
     first: list[Artist] = [
-        Line2D([], [], color=colour, linestyle=dash, linewidth=1.8, label=_told(known[known["set"] == name], name))
+        Line2D([], [], color=colour, linestyle=dash, linewidth=1.8, label=_described(known[known["set"] == name], name))
         for name, colour, dash in zip(sets, colours, dashes, strict=True)
     ]
     second: list[Artist] = [
@@ -174,7 +174,7 @@ def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any], d
     return [*first, *blank * (longest - len(first)), *second, *blank * (longest - len(second))]
 
 
-def _told(rows: pd.DataFrame, name: str) -> str:
+def _described(rows: pd.DataFrame, name: str) -> str:
     """Return a set in words, with its coverage and its median ratio."""
     covered, count, ratio = int(rows["covered"].sum()), len(rows), float(np.median(_ratio(rows)))
     # Rounded down: 100 % are all of them.
@@ -184,12 +184,12 @@ def _told(rows: pd.DataFrame, name: str) -> str:
 
 def _note(table: pd.DataFrame, known: pd.DataFrame) -> str:
     """Return the note below the panels: how to read them, and what is not shown."""
-    told = (
+    note = (
         "Covered: the estimate is at least the true error. Whiskers: what the reference's own error does to the true "
         "one. Errors below panel (a) are drawn at its edge. In (b), dots are medians; what lacks to 100 % lies beyond "
         "the panel."
     )
     lost = len(table) - len(known)
     if lost:
-        told += f" {lost} of {len(table)} runs have no true or no estimated error and are left out."
-    return told
+        note += f" {lost} of {len(table)} runs have no true or no estimated error and are left out."
+    return note

@@ -1,4 +1,4 @@
-"""What a table must hold to be drawn."""
+"""Checks of the columns of a table that is drawn."""
 
 from __future__ import annotations
 

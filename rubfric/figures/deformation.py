@@ -38,8 +38,8 @@ class DeformedBlock:
     density : numpy.ndarray, shape (rows, columns)
         Strain-energy density at the nodes, MPa.
     net : tuple of numpy.ndarray
-        Abscissae and heights, mm, shape (2, points), of lines that crossed as a square net in the block as it was
-        made, eight to a wavelength; none in small strain, where the picture leaves out part of the deformation.
+        Abscissae and heights, mm, shape (2, points), of lines that form a square net in the undeformed block,
+        eight to a wavelength; none in small strain, where the picture leaves out part of the deformation.
     """
 
     x: Array
@@ -73,10 +73,10 @@ def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
     """Return the deformed block between two abscissae.
 
     In finite strain every node is where its displacement takes it. In small strain the lower face is where the contact
-    has it, and above it every row of nodes keeps its distance from the lower face in the mean, whatever the load
-    compresses the block by: small strain would turn a soft block under a high load inside out. Horizontal displacements
-    are left out there too, for contact at small strain is between the road and what was above it before; with them a
-    few hundredths of a wavelength of the flanks would seem to part from the road.
+    puts it, and above it every row of nodes keeps its mean distance from the lower face, whatever the load compresses
+    the block by: small strain would turn a soft block under a high load inside out. Horizontal displacements are left
+    out there too, since contact in small strain is between the road and the undeformed position above it; with them
+    the flanks would seem to separate from the road by a few hundredths of a wavelength.
 
     Parameters
     ----------

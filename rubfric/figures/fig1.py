@@ -12,14 +12,14 @@ from matplotlib.figure import Figure
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import described, friction, friction_error
+from rubfric.results.selection import described, friction, friction_error, written
 
 
 @style.applied()
 def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
     """Draw the friction coefficient against speed, a line per ratio and a panel per scale and pressure.
 
-    Bands around the lines are the estimated errors; the legend tells the largest.
+    Bands around the lines are the estimated errors; the legend gives the largest.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
         for aspect, look in zip(aspects, style.lines(len(aspects)), strict=True):
             line, error = lines[place, aspect], errors[place, aspect]
             draw_band(panel, line["velocity"].values, line.values, error.values, look["color"])
-            panel.plot(line["velocity"].values, line.values, label=style.written(aspect), **look)
+            panel.plot(line["velocity"].values, line.values, label=written(aspect), **look)
     scale_speeds(axes[0], campaign["velocity"].values)
     shown, bounds = (np.concatenate([one.values for one in found.values()]) for found in (lines, errors))
     scale_friction(axes[0], upper(shown, bounds))

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 from rubfric.figures import panels, style
 from rubfric.figures.scaling import scale_decades
 from rubfric.figures.scenes import by_pressure_and_speed
-from rubfric.figures.selection import described
+from rubfric.results.selection import described, written
 
 Array = NDArray[np.float64]
 
@@ -71,10 +70,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     _scale_height(axes[0], results)
     panels.entitle(axes, [described(pressure=pressure) for pressure in grid.pressures])
     panels.label(axes, "height in the undeformed block (mm)", "strain-energy density (MPa)")
-    handles: list[Artist] = [
-        Line2D([], [], label=f"mean at {style.written(speed)} mm/s", **look)
-        for speed, look in zip(grid.speeds, looks, strict=True)
-    ]
+    handles = panels.line_handles([f"mean at {written(speed)} mm/s" for speed in grid.speeds], looks)
     handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="range of the nodes")]
     handles += [Line2D([], [], label="steady value on a flat road", **_STEADY)]
     panels.legend_above(figure, handles, None, 2 if len(axes) == 1 else 3)
@@ -115,4 +111,4 @@ def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: Sequence[f
 def _scale_height(panel: Axes, results: Sequence[xr.Dataset]) -> None:
     panel.set_xlim(0.0, max(float(result["depth"].values.max()) for result in results))
     panel.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))

@@ -8,16 +8,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.scaling import NEGLIGIBLE, scale_decades, scale_friction, tick_at
-from rubfric.figures.selection import described, friction, friction_error
+from rubfric.results.selection import described, friction, friction_error, written
 
 Array = NDArray[np.float64]
 
@@ -31,7 +29,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     """Draw the friction coefficient against the height-to-width ratio, a line per speed; the ratio 0.75 is marked.
 
     The ordinate is logarithmic, so that the lines of all speeds show how much they still change; it is linear where a
-    friction coefficient is zero. Bands around the lines are the estimated errors; the legend tells the largest.
+    friction coefficient is zero. Bands around the lines are the estimated errors; the legend gives the largest.
 
     Parameters
     ----------
@@ -73,9 +71,7 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
     _scale_ordinate(axes[0], np.concatenate(tables), np.concatenate(errors))
     panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
     panels.label(axes, "height-to-width ratio (-)", "friction coefficient (-)")
-    handles: list[Artist] = [
-        Line2D([], [], label=style.written(float(speed)), **look) for speed, look in zip(speeds, looks, strict=True)
-    ]
+    handles = panels.line_handles([written(float(speed)) for speed in speeds], looks)
     handles.append(band_handle(np.concatenate(tables), np.concatenate(errors)))
     panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
     return figure

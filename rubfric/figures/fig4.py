@@ -23,6 +23,7 @@ from rubfric.figures.note import note_below
 from rubfric.figures.panels import letter
 from rubfric.figures.scaling import tick_decades
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
+from rubfric.results.selection import written
 
 _VARIABLES = (*deformation.VARIABLES, "surface_x", "road_height", "contact_fraction", "nominal_compression")
 _MAP = "viridis"
@@ -82,8 +83,8 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     matplotlib.figure.Figure
         The block repeats along the road and slides to the right. In finite strain it is drawn as it is deformed, with a
         net of lines that were squares before, up to its upper face or to a wavelength above the road. In small strain
-        its vertical displacements are to scale, but without its mean compression, which is told below the panels; half
-        a wavelength above the road is shown then. Each panel tells the share of the nominal area in contact.
+        its vertical displacements are to scale, but without its mean compression, which the note below gives; half a
+        wavelength above the road is shown then. Each panel gives the share of the nominal area in contact.
 
     Raises
     ------
@@ -133,7 +134,7 @@ def _window(results: Sequence[xr.Dataset], blocks: Sequence[DeformedBlock]) -> _
 
 
 def _colour_scale(results: Sequence[xr.Dataset]) -> LogNorm:
-    """Return a scale from a low percentile, below which colour tells nothing, to the largest density."""
+    """Return a scale from a low percentile, below which the colour is constant, to the largest density."""
     density = np.concatenate([result["strain_energy_density"].values for result in results])
     positive = density[density > 0.0]
     if positive.size == 0:
@@ -173,7 +174,7 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
         panel.set(xlim=(window.left, window.right), ylim=(window.bottom, window.top))
         for axis in (panel.xaxis, panel.yaxis):
             axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
         panel.label_outer()
     return figure, list(panels.flat)
 
@@ -210,10 +211,10 @@ def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet)
     """Write speeds above the columns, pressures beside the rows, the names of the axes, and the note."""
     columns = len(grid.speeds)
     for panel, speed in zip(axes, grid.speeds, strict=False):
-        panel.set_title(f"{style.written(speed)} mm/s")
+        panel.set_title(f"{written(speed)} mm/s")
     for panel, pressure in zip(axes[::columns], grid.pressures, strict=True):
         place = panel.get_position()
-        text = f"{style.written(pressure)}\nMPa"
+        text = f"{written(pressure)}\nMPa"
         figure.text(0.03 / sheet.width, 0.5 * (place.y0 + place.y1), text, va="center")
     middle = 0.5 * (_LEFT + sheet.width - _RIGHT) / sheet.width
     figure.text(middle, (sheet.bottom - 0.32) / sheet.height, "distance along the road (mm)", ha="center")

@@ -18,34 +18,30 @@ from numpy.typing import NDArray
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
 from rubfric.figures.scaling import scale_friction, tick_decades
-from rubfric.figures.selection import described
+from rubfric.figures.scenes import check_results
+from rubfric.results.selection import described, written
 
 Array = NDArray[np.float64]
 
-_SERIES = ("slid", "phase", "friction_contact", "mean_friction")
-_SCALARS = ("steady_friction_coefficient", "saturated", "memory_wavelengths")
-_ATTRIBUTES = ("velocity", "pressure", "scale", "aspect", "kinematics_used", "wavelength_mm", "steps_per_wavelength")
+_VARIABLES = (
+    *("slid", "phase", "friction_contact", "mean_friction"),
+    *("steady_friction_coefficient", "saturated", "memory_wavelengths"),
+)
+_BLOCK = ("scale", "pressure", "aspect")
+_ATTRIBUTES = ("velocity", *_BLOCK, "kinematics_used", "wavelength_mm", "steps_per_wavelength")
 # The phase in which the block begins to move; those before press it.
 _START = 2
-# Panel (b) begins at so many wavelengths; before, the block has hardly moved.
+# Wavelengths at which panel (b) begins; before, the block has hardly moved.
 _FIRST = 0.05
 # Markers are no nearer to each other than this share of the panel's width.
 _APART = 0.035
-# Lines of fast blocks wave more and lie below those of slow ones; in panel (b) they leave the means the say.
+# Lines of fast blocks oscillate more and lie below those of slow ones; in panel (b) they are paler than the means.
 _STEPS: dict[str, Any] = {"linewidth": 0.7, "zorder": 2.0}
 _PALE = 0.5
 _MEAN: dict[str, Any] = {"linestyle": "none", "markersize": 3.4, "zorder": 3.0}
 _STEADY: dict[str, Any] = {"linestyle": (0, (6, 3)), "linewidth": 0.6}
-_RING: dict[str, Any] = {
-    "linestyle": "none",
-    "marker": "o",
-    "markersize": 8.0,
-    "markerfacecolor": "none",
-    "markeredgewidth": 0.9,
-    "clip_on": False,
-}
-# The size of type of the note, points, and the characters on one of its lines, which end before the legend.
-_SMALL, _LINE = 6.0, 135
+# Characters on a line of the note, which ends before the legend.
+_LINE = 135
 # In inches: the height of the panels with their labels, of a line of the legend, and of a line of the note.
 _HEIGHT, _LEGEND_LINE, _NOTE_LINE = 2.8, 0.14, 0.1
 
@@ -66,7 +62,7 @@ class _Slide:
         Friction coefficient by the steady solver.
     saturated : bool
     memory : float
-        Wavelengths that the slowest branch remembers.
+        Memory of the slowest branch in wavelengths.
     """
 
     speed: float
@@ -97,8 +93,8 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     matplotlib.figure.Figure
         Steps and wavelengths count from where the block begins to move. Dashes show the steady solver's value. Markers
         show means over a wavelength, all in panel (b) but those too near to another one, and the last in panel (a); a
-        ring around the last one tells that the mean has saturated, though friction may still wave about it. The legend
-        and the note tell where it has not.
+        ring around the last one marks a saturated mean, about which friction may still oscillate. The legend and the
+        note name those that have not saturated.
 
     Raises
     ------
@@ -124,32 +120,20 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     by_step.set(xlabel="time steps since the block began to move (-)", ylabel="friction coefficient (-)")
     by_distance.set_xlabel("distance slid (wavelengths)")
     panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
-    figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL)
+    panels.write_note(figure, note)
     return figure
 
 
 def _check(results: Sequence[xr.Dataset]) -> None:
-    if not results:
-        raise InvalidInput("there are no marches to draw, but at least one is needed")
-    speeds, blocks = set(), set()
+    check_results("march", results, _ATTRIBUTES, _VARIABLES, _BLOCK)
+    speeds = set()
     for result in results:
-        lacking = [name for name in _ATTRIBUTES if name not in result.attrs]
-        lacking += [name for name in (*_SERIES, *_SCALARS) if name not in result]
-        if lacking:
-            raise InvalidInput(f"the march {result.attrs.get('scene', 'without a name')} lacks {', '.join(lacking)}")
         speed = float(result.attrs["velocity"])
         if speed in speeds:
             raise InvalidInput(f"there are two marches at {described(velocity=speed)}, but one line shows only one")
         if not (result["phase"].values >= _START).any():
             raise InvalidInput(f"the march at {described(velocity=speed)} has no step in which the block slides")
         speeds.add(speed)
-        blocks.add(_block(result))
-    if len(blocks) > 1:
-        raise InvalidInput(f"the marches are of {' and of '.join(sorted(blocks))}, but one figure shows one block")
-
-
-def _block(result: xr.Dataset) -> str:
-    return described(**{name: float(result.attrs[name]) for name in ("scale", "pressure", "aspect")})
 
 
 def _slide(result: xr.Dataset) -> _Slide:
@@ -178,7 +162,7 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
     most = max(float(slide.steps[-1]) for slide in slides)
     by_step.set_xlim(0.0, 1.03 * most)
     by_step.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
-    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: style.written(value)))
+    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
     furthest = max(1.0, *(float(slide.slid[-1]) for slide in slides))
     by_distance.set_xscale("log")
     by_distance.set_xlim(_FIRST, 1.15 * furthest)
@@ -191,7 +175,7 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
 
 
 def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any], alpha: float = 1.0) -> None:
-    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=style.written(slide.speed), **_STEPS)
+    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=written(slide.speed), **_STEPS)
     panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
 
 
@@ -203,7 +187,7 @@ def _draw_means(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any])
     marker = look | _MEAN | {"markevery": _apart(panel, places)}
     panel.plot(places, means, gid="mean", **marker)
     if slide.saturated:
-        panel.plot(places[-1], means[-1], color=look["color"], gid="saturated", zorder=4.0, **_RING)
+        panel.plot(places[-1], means[-1], color=look["color"], gid="saturated", zorder=4.0, **style.RING)
 
 
 def _apart(panel: Axes, places: Array) -> list[int]:
@@ -219,31 +203,31 @@ def _apart(panel: Axes, places: Array) -> list[int]:
 def _handles(slides: Sequence[_Slide], looks: Sequence[dict[str, Any]]) -> list[Line2D]:
     handles = []
     for slide, look in zip(slides, looks, strict=True):
-        words = style.written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
+        words = written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
         handles.append(Line2D([], [], label=words, **look | {"linestyle": "-", "linewidth": 0.8, "markersize": 3.4}))
     handles.append(Line2D([], [], color="black", label="steady sliding,\nsolved directly", **_STEADY))
     if any(slide.means.size for slide in slides):
         handles.append(Line2D([], [], color="black", marker="o", label="mean over\na wavelength", **_MEAN))
     if any(slide.saturated for slide in slides):
-        handles.append(Line2D([], [], color="black", label="mean saturated", **_RING))
+        handles.append(Line2D([], [], color="black", label="mean saturated", **style.RING))
     return handles
 
 
 def _note(results: Sequence[xr.Dataset], slides: Sequence[_Slide]) -> str:
     """Return the note below the panels: which block, which steps, and what is not saturated."""
-    block = _block(results[0])
+    block = described(**{name: float(results[0].attrs[name]) for name in _BLOCK})
     strains = " and ".join(sorted({str(result.attrs["kinematics_used"]) for result in results}))
     counts = sorted({int(result.attrs["steps_per_wavelength"]) for result in results})
-    steps = " to ".join(style.written(count) for count in sorted({counts[0], counts[-1]}))
-    told = f"{block[0].upper()}{block[1:]}; {strains} strain; {steps} time steps to a wavelength at full speed."
+    steps = " to ".join(written(count) for count in sorted({counts[0], counts[-1]}))
+    note = f"{block[0].upper()}{block[1:]}; {strains} strain; {steps} time steps to a wavelength at full speed."
     missing = [slide for slide in slides if not slide.saturated]
     if missing:
-        told += " Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
-        told += ", ".join(_remembered(slide) for slide in missing) + "."
-    return told
+        note += " Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
+        note += ", ".join(_remembered(slide) for slide in missing) + "."
+    return note
 
 
 def _remembered(slide: _Slide) -> str:
-    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else style.written(round(slide.memory))
-    words = f"{slide.means.size} / {memory} at {style.written(slide.speed)} mm/s"
+    memory = f"{slide.memory:.2g}" if slide.memory < 10.0 else written(round(slide.memory))
+    words = f"{slide.means.size} / {memory} at {written(slide.speed)} mm/s"
     return words.replace(" ", "\N{NO-BREAK SPACE}")

@@ -6,13 +6,12 @@ from itertools import product
 
 import xarray as xr
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import friction, friction_error
+from rubfric.results.selection import friction, friction_error, written
 
 
 @style.applied()
@@ -30,7 +29,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     -------
     matplotlib.figure.Figure
         Rings mark the largest of the sampled points of a line, where it lies between others. Bands around the lines
-        are the estimated errors; the legend tells the largest.
+        are the estimated errors; the legend gives the largest.
 
     Raises
     ------
@@ -58,9 +57,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     scale_friction(axes[0], upper(grid.values, errors.values))
     panels.entitle(axes, _titles(scales))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    handles = [
-        Line2D([], [], label=style.written(pressure), **look) for pressure, look in zip(pressures, looks, strict=True)
-    ]
+    handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
     marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
     panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
     return figure

@@ -16,8 +16,8 @@ from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.selection import described, friction, friction_error
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import described, friction, friction_error
 
 _HEIGHT = 2.9
 # A speed without a neighbour is drawn this far to either side, as a factor.
@@ -41,7 +41,8 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     -------
     matplotlib.figure.Figure
         The finest scale lies at the bottom. A ring marks the largest of the sampled totals, where it lies
-        between others. The band around the total is a bound on its estimated error, which the legend tells too.
+        between others. The band around the total is a bound on its estimated error; the legend gives the
+        largest.
 
     Raises
     ------

@@ -19,6 +19,7 @@ from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.columns import check_columns
 from rubfric.figures.scaling import scale_friction, scale_speeds, tick_decades
 from rubfric.results.friction_map import FrictionMap
+from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
 
@@ -53,7 +54,7 @@ def draw(
     -------
     matplotlib.figure.Figure
         Bars are 95 % confidence intervals, bands the estimated errors of the simulation. Points at other pressures
-        and speeds than those of the lines are left out; the note below tells how many.
+        and speeds than those of the lines are left out; the note below counts them.
 
     Raises
     ------
@@ -168,7 +169,7 @@ def _legend(panel: Axes, values: Sequence[float], unit: str) -> None:
             markersize=3.0,
             markerfacecolor="white",
             markeredgewidth=0.6,
-            label=f"{style.written(value)} {unit}",
+            label=f"{written(value)} {unit}",
         )
         for value, look in zip(values, style.lines(len(values)), strict=True)
     ]
@@ -191,7 +192,7 @@ def _kinds(points: pd.DataFrame) -> list[Line2D]:
 def _note(figure: Figure, points: pd.DataFrame, shown: Flags) -> None:
     """Write below the panels what is drawn, and how much is not."""
     percent = 100.0 * (_NEAR - 1.0)
-    told = f"Points within {percent:.0f} % of the pressure, or speed, of a line"
+    note = f"Points within {percent:.0f} % of the pressure, or speed, of a line"
     hidden = int(np.count_nonzero(~shown))
-    told += f"; {hidden} of {len(points)} lie at others and are not drawn." if hidden else "."
-    figure.supxlabel(told if len(points) else "No point could be measured.", fontsize=6.0, color="0.3")
+    note += f"; {hidden} of {len(points)} lie at others and are not drawn." if hidden else "."
+    figure.supxlabel(note if len(points) else "No point could be measured.", fontsize=6.0, color="0.3")

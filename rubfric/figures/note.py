@@ -1,4 +1,4 @@
-"""What a reader has to know about the pictures of the block in figure 4."""
+"""The note below figure 4: how to read the pictures of the block."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import product
 from rubfric.figures.deformation import is_finite
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid
-from rubfric.figures.style import written
+from rubfric.results.selection import written
 
 
 def note_below(grid: SceneGrid, whole: bool, shares: bool) -> str:
@@ -26,18 +26,18 @@ def note_below(grid: SceneGrid, whole: bool, shares: bool) -> str:
     places = list(product(grid.pressures, grid.speeds))
     small = [number for number, place in enumerate(places) if not is_finite(grid.results[place])]
     finite = len(small) < len(places)
-    told = ["The block slides to the right." if whole else "Lower part of the block, which slides to the right."]
+    note = ["The block slides to the right." if whole else "Lower part of the block, which slides to the right."]
     if finite:
-        told.append("Displacements are to scale; the white lines made squares before deformation.")
+        note.append("Displacements are to scale; the white lines made squares before deformation.")
     if small:
         panels = f"In small strain ({_listed(small)}) only" if finite else "Only"
         compressions = _compressions(grid)
-        told.append(
+        note.append(
             f"{panels} vertical displacements are shown, to scale, without the mean compression ({compressions})."
         )
     if shares:
-        told.append("Percentages: share of the nominal area in contact.")
-    return " ".join(told)
+        note.append("Percentages: share of the nominal area in contact.")
+    return " ".join(note)
 
 
 def _compressions(grid: SceneGrid) -> str:

@@ -6,15 +6,17 @@ from collections.abc import Sequence
 from string import ascii_lowercase
 from typing import Any
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from rubfric.errors import InvalidInput
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN
 
 _MOST_COLUMNS = 3
-# The height of a line of a legend, in inches.
-_LEGEND_LINE = 0.13
+# The height of a line of a legend, in inches, and the size of type of a note, points.
+_LEGEND_LINE, _NOTE_TYPE = 0.13, 6.0
 
 
 def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Figure, list[Axes]]:
@@ -44,7 +46,15 @@ def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Fig
 
 
 def label(axes: Sequence[Axes], abscissa: str, ordinate: str) -> None:
-    """Label the panels that ``arrange`` returned: the lowest of each column, the first of each row."""
+    """Label the panels that ``arrange`` returned: the lowest of each column, the first of each row.
+
+    Parameters
+    ----------
+    axes : sequence of matplotlib.axes.Axes
+        All panels.
+    abscissa, ordinate : str
+        Quantity and unit.
+    """
     columns = 2 if len(axes) == 4 else min(len(axes), _MOST_COLUMNS)
     for panel in axes[max(len(axes) - columns, 0) :]:
         panel.set_xlabel(abscissa)
@@ -53,7 +63,14 @@ def label(axes: Sequence[Axes], abscissa: str, ordinate: str) -> None:
 
 
 def entitle(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Write a letter and a title above each panel, at the left; one panel alone has no letter."""
+    """Write a letter and a title above each panel, at the left; one panel alone has no letter.
+
+    Parameters
+    ----------
+    axes : sequence of matplotlib.axes.Axes
+    titles : sequence of str
+        One for each panel.
+    """
     for place, (panel, title) in enumerate(zip(axes, titles, strict=True)):
         panel.set_title(title if len(axes) == 1 else f"{letter(place)} {title}", loc="left")
 
@@ -68,6 +85,13 @@ def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:
     """Put one legend for all panels at the right of them, where it covers no data; above one panel alone.
 
     One panel is a column of a page wide and would be too narrow beside a legend: the figure grows in height instead.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    handles : sequence of matplotlib artists
+        With labels.
+    title : str
     """
     if len(figure.axes) == 1:
         lines = 1 + max(str(handle.get_label()).count("\n") for handle in handles)
@@ -79,5 +103,38 @@ def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:
 
 
 def legend_above(figure: Figure, handles: Sequence[Any], title: str | None, columns: int) -> None:
-    """Put one legend for all panels above them, in rows of some columns."""
+    """Put one legend for all panels above them.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    handles : sequence of matplotlib artists
+        With labels.
+    title : str or None
+    columns : int
+        Entries in a row.
+    """
     figure.legend(handles=list(handles), title=title, loc="outside upper center", ncols=columns)
+
+
+def line_handles(labels: Sequence[str], looks: Sequence[dict[str, Any]]) -> list[Artist]:
+    """Return the entries of lines in a legend.
+
+    Parameters
+    ----------
+    labels : sequence of str
+    looks : sequence of dict
+        Keywords of ``Axes.plot``, one for each label.
+    """
+    return [Line2D([], [], label=words, **look) for words, look in zip(labels, looks, strict=True)]
+
+
+def write_note(figure: Figure, lines: Sequence[str]) -> None:
+    """Write a note in small type below all panels.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    lines : sequence of str
+    """
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", multialignment="left", fontsize=_NOTE_TYPE)

@@ -71,7 +71,7 @@ _HALO = [withStroke(linewidth=2.0, foreground="white")]
 
 @style.applied()
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the error of friction against cost, all knobs in one panel and each in a panel of its own.
+    """Draw the error of friction against cost, all knobs in one panel and each in its own panel.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def draw(table: pd.DataFrame) -> Figure:
     _entitle(large, small, ladders)
     _label(large, small)
     upper.legend(handles=_handles(list(ladders), looks, presets is not None), loc="outside right upper")
-    figure.supxlabel("\n".join(note), x=0.01, ha="left", multialignment="left", fontsize=_SMALL_TYPE)
+    panels.write_note(figure, note)
     if presets:
         _draw_presets(large, presets)
         style.lay_out(figure)
@@ -214,9 +214,7 @@ def _label(large: Axes, small: Sequence[Axes]) -> None:
 
 
 def _handles(knobs: Sequence[str], looks: Sequence[dict[str, Any]], presets: bool) -> list[Artist]:
-    handles: list[Artist] = [
-        Line2D([], [], label=_words(knob), **look) for knob, look in zip(knobs, looks, strict=True)
-    ]
+    handles = panels.line_handles([_words(knob) for knob in knobs], looks)
     handles.append(Line2D([], [], label="coarsest rung", **_RING | {"color": "0.3"}))
     handles.append(Line2D([], [], label="one scene", **_POINT | {"color": "0.3", "markersize": 4.0}))
     if presets:
@@ -229,11 +227,11 @@ def _handles(knobs: Sequence[str], looks: Sequence[dict[str, Any]], presets: boo
 def _note(table: pd.DataFrame, known: pd.DataFrame) -> str:
     """Return the note below the panels: how many scenes, and what is not shown."""
     scenes = known["scene"].nunique()
-    told = (
+    note = (
         f"Lines: medians over {scenes} scene{'s' if scenes > 1 else ''}, rungs from coarse to fine in the order above "
         "each panel; small grey diamonds: the presets. Errors below the panel are drawn at its lower edge."
     )
     lost = len(table) - len(known)
     if lost:
-        told += f" {lost} of {len(table)} runs gave no error or cost and are left out."
-    return told
+        note += f" {lost} of {len(table)} runs gave no error or cost and are left out."
+    return note

@@ -1,4 +1,4 @@
-"""The map of stability: where far beyond the paper scenes converge, are refused, or fail."""
+"""The map of stability: where scenes with extreme inputs converge, are refused, or fail."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from matplotlib.patches import Patch, Rectangle
 from rubfric.errors import InvalidInput
 from rubfric.figures.style import DOUBLE_COLUMN, applied
 
-# Look of what may become of a case; hatches tell them apart without colour.
+# Look of each outcome of a case; hatches distinguish them without colour.
 _LOOKS: dict[str, dict[str, Any]] = {
     "converged": {"facecolor": "#2b7bba", "edgecolor": "white"},
     "converged, with a caution": {"facecolor": "#a9cfe8", "edgecolor": "white"},
@@ -51,7 +51,7 @@ _LABEL_SIZE, _MOST_LABELS = 5.5, 6
 
 @applied()
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw every panel of the matrix: one row each, planes and kinematics side by side, corners of everything last.
+    """Draw every panel of the matrix: one row each, planes and kinematics side by side, the corners last.
 
     Parameters
     ----------

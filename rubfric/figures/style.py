@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
+from rubfric.results.selection import written
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.
 COLUMN = 88.0 / 25.4
@@ -64,6 +65,11 @@ RC_PARAMS: dict[str, Any] = {
 # Markers and dashes repeat after 8 and after 5 series: 40 pairs, whatever becomes of the colours.
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "p")
 _DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (2.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (1, 1)))
+# A ring around a point.
+RING: dict[str, Any] = {
+    **{"linestyle": "none", "marker": "o", "markersize": 8.0},
+    **{"markerfacecolor": "none", "markeredgewidth": 0.9, "clip_on": False},
+}
 # Light hatches, of different direction or kind where areas touch.
 HATCHES = ("////", "....", "\\\\\\\\", "xxxx", "----")
 # Colours run from dark to light, evenly to the eye in colour, in grey and to the colour-blind;
@@ -88,7 +94,7 @@ _LOCK = threading.RLock()
 
 @contextmanager
 def applied() -> Iterator[None]:
-    """Draw with the shared look; serves as a decorator too, and lets one thread in at a time."""
+    """Draw with the shared look, one thread at a time; serves as a decorator too."""
     defaults: dict[Any, Any] = {key: mpl.rcParamsDefault[key] for key in mpl.rcParamsDefault if key != "backend"}
     with _LOCK, mpl.rc_context(defaults | RC_PARAMS):
         yield
@@ -135,16 +141,6 @@ def dashes(count: int) -> list[Any]:
     return [_DASHES[place % len(_DASHES)] for place in range(count)]
 
 
-def written(value: float) -> str:
-    """Return a number as it is printed in figures: 0.1, 10, 1000, 10 000."""
-    plain = f"{value:.12g}"
-    if "e" in plain or abs(value) < 10000.0:
-        return plain
-    whole, _, fraction = plain.partition(".")
-    grouped = f"{int(whole):,}".replace(",", "\N{NO-BREAK SPACE}")
-    return f"{grouped}.{fraction}" if fraction else grouped
-
-
 def percent(share: float) -> str:
     """Return a share as it is printed in figures, with two digits at most, rounded up: 0.0123 is 1.3 %."""
     value = 100.0 * share
@@ -183,7 +179,7 @@ def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
 
 
 def lay_out(figure: Figure) -> None:
-    """Place the panels for good, once for all files; matplotlib would do it twice for each."""
+    """Lay out the panels once for all files; matplotlib would do it twice for each."""
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)

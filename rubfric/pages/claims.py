@@ -1,135 +1,101 @@
-"""What of the paper stands, as a page to read in a minute (HTML, self-contained) and as a table for a README."""
+"""Which claims of the paper are reproduced: a page to read in a minute, and a table in Markdown."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from html import escape
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
+from rubfric.markdown import markdown_table
+from rubfric.pages.render import render
 from rubfric.studies.paper.verdicts import EVERY, FAILS, HOLDS, IN_PART, SIMULATED, UNDECIDED
 
-# A mark besides the colour, for print and for eyes that tell no green from red.
-_MARKS = {HOLDS: ("●", "yes"), IN_PART: ("◐", "part"), FAILS: ("○", "no"), UNDECIDED: ("–", "open")}
-_STYLE = """
-body { font: 16px/1.5 system-ui, sans-serif; color: #1b1f24; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
-p.lead { color: #57606a; margin-top: 0; max-width: 46rem; }
-div.wide { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: .93rem; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; border-bottom: 2px solid #1b1f24; vertical-align: bottom; }
-th, td { padding: .45rem .9rem .45rem 0; } td { border-bottom: 1px solid #d0d7de; vertical-align: top; }
-td small { color: #57606a; display: block; }
-td.name { min-width: 15rem; } td.number { min-width: 14rem; }
-.verdict { white-space: nowrap; font-weight: 600; }
-.yes { color: #1a6e8e; } .part { color: #8a5a00; } .no { color: #b3261e; } .open { color: #57606a; }
-"""
+
+class _Chip(NamedTuple):
+    """A verdict with a mark besides its colour: for print, and for readers who cannot tell red from green."""
+
+    words: str
+    mark: str
+    kind: str
+
+
+_MARKS = {HOLDS: ("●", "yes"), IN_PART: ("◐", "part"), FAILS: ("○", "no"), UNDECIDED: ("–", "open"), "": ("", "open")}
 
 
 def claims_page(claims: pd.DataFrame, evidence: pd.DataFrame, about: Mapping[str, str]) -> str:
-    """Return the page.
+    """Return the page as HTML.
 
     Parameters
     ----------
     claims, evidence : pandas.DataFrame
-        As from ``rubfric.studies.paper.verdicts``.
+        As from ``claims_table`` and ``evidence_table`` of ``rubfric.studies.paper.verdicts``.
     about : mapping of str to str
-        What was run, in words, in the order in which it is told: the campaign, then each reading by its name.
+        By the name of the reading: what was run, in words. The page has the readings in this order.
     """
     whole = claims[claims["pressure_MPa"] == EVERY]
-    readings = list(dict.fromkeys(claims["reading"]))
-    body = [
-        "<h1>What of the paper stands</h1>",
-        '<p class="lead">The claims of Zhou, Wang and Wei (2019, doi:10.1049/joe.2018.9163), judged by the numbers of '
-        f"this campaign, each against its own error. {escape(about[AS_CONFIGURED])}</p>",
-        _summary(whole, readings),
-        f"<p>{_legend()}</p>",
-        *_readings(claims, readings, about),
-        "<h2>How the verdicts move with pressure</h2>",
-        "<p>The paper names one of its pressures only (5 MPa). The grid here spans partial to full contact.</p>",
-        _by_pressure(claims[(claims["reading"] == AS_CONFIGURED) & (claims["pressure_MPa"] != EVERY)]),
-        "<h2>What each claim was judged by</h2>",
-        *[_section(row, evidence) for _, row in whole[whole["reading"] == AS_CONFIGURED].iterrows()],
-    ]
-    return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>What of the paper stands</title>\n'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{_STYLE}</style></head>\n<body>\n'
-        + "\n".join(body)
-        + "\n</body></html>\n"
+    others = [name for name in claims["reading"].unique() if name != AS_CONFIGURED]
+    single = claims[(claims["reading"] == AS_CONFIGURED) & (claims["pressure_MPa"] != EVERY)]
+    pressures = sorted(set(single["pressure_MPa"]))
+    found = {(row["claim"], row["pressure_MPa"]): row["verdict"] for _, row in single.iterrows()}
+    return render(
+        "claims.html",
+        title="Which claims of the paper are reproduced",
+        about=about[AS_CONFIGURED],
+        claims=[
+            _claim(row, evidence) | {"others": [_chip(_verdict(whole, row["claim"], name)) for name in others]}
+            for _, row in whole[whole["reading"] == AS_CONFIGURED].iterrows()
+        ],
+        others=[
+            {"name": _words(name), "about": about[name], "notes": _notes(whole[whole["reading"] == name])}
+            for name in others
+        ],
+        pressures=[f"{pressure:g} MPa" for pressure in pressures],
+        by_pressure={
+            name: [_chip(found[name, pressure]) if (name, pressure) in found else None for pressure in pressures]
+            for name in single["claim"].unique()
+        },
     )
 
 
 def claims_text(claims: pd.DataFrame) -> str:
     """Return the verdicts as a table in Markdown, one line for each claim, one column for each reading."""
     whole = claims[claims["pressure_MPa"] == EVERY]
-    readings = list(dict.fromkeys(claims["reading"]))
-    names = ["here" if name == AS_CONFIGURED else name.replace("_", " ") for name in readings]
-    lines = [["the paper's claim", "decided by", *names], ["---"] * (2 + len(names))]
+    readings = list(claims["reading"].unique())
+    names = ["here" if name == AS_CONFIGURED else _words(name) for name in readings]
+    rows = [["the paper's claim", "decided by", *names]]
     for _, row in whole[whole["reading"] == AS_CONFIGURED].iterrows():
-        verdicts = [_verdict_of(whole, row["claim"], reading) or "" for reading in readings]
-        verdicts[0] = f"**{verdicts[0]}**"
-        lines.append([f"{row['claim']} ({row['figure']}) {row['says']}", _number(row), *verdicts])
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+        first, *others = (_verdict(whole, row["claim"], reading) for reading in readings)
+        rows.append([f"{row['claim']} ({row['figure']}) {row['says']}", _number(row), f"**{first}**", *others])
+    return markdown_table(rows)
 
 
-def _summary(whole: pd.DataFrame, readings: list[str]) -> str:
-    headings = ["claim", "verdict", "decided by", *(_words(name) for name in readings if name != AS_CONFIGURED)]
-    rows = []
-    for _, row in whole[whole["reading"] == AS_CONFIGURED].iterrows():
-        others = [_chip(_verdict_of(whole, row["claim"], reading)) for reading in readings if reading != AS_CONFIGURED]
-        rows.append(
-            [
-                f'<td class="name"><b>{row["claim"]}</b> {escape(row["says"])} <small>{escape(row["figure"])}</small>',
-                f"<td>{_chip(row['verdict'])}",
-                f'<td class="number">{escape(_number(row))}<small>{escape(_note(row))}</small>',
-                *(f"<td>{other}" for other in others),
-            ]
-        )
-    return _table(headings, rows)
-
-
-def _by_pressure(claims: pd.DataFrame) -> str:
-    pressures = sorted(set(claims["pressure_MPa"]))
-    rows = []
-    for name in dict.fromkeys(claims["claim"]):
-        own = claims[claims["claim"] == name].set_index("pressure_MPa")
-        cells = [_chip(own.loc[pressure, "verdict"]) if pressure in own.index else "" for pressure in pressures]
-        rows.append([f"<td>{name}", *(f"<td>{cell}" for cell in cells)])
-    return _table(["claim", *(f"{pressure:g} MPa" for pressure in pressures)], rows)
-
-
-def _readings(claims: pd.DataFrame, readings: list[str], about: Mapping[str, str]) -> Iterable[str]:
-    if len(readings) > 1:
-        yield "<h2>The other readings</h2>"
-        yield (
-            "<p>The paper leaves open whether its modulus is of the relaxed or of the instantaneous rubber, and its "
-            "text does not name the plane, only its element. The whole campaign was therefore run again:</p>"
-        )
-    for reading in readings:
-        if reading != AS_CONFIGURED:
-            whole = claims[(claims["reading"] == reading) & (claims["pressure_MPa"] == EVERY)]
-            notes = " ".join(dict.fromkeys(note for note in whole["note"] if note))
-            yield f"<p><b>{escape(_words(reading))}</b>: {escape(about[reading])} {escape(notes)}</p>"
-
-
-def _section(row: pd.Series, evidence: pd.DataFrame) -> str:
+def _claim(row: pd.Series, evidence: pd.DataFrame) -> dict[str, Any]:
+    """Return what the page shows of one claim as judged by the campaign itself."""
     own = evidence[(evidence["claim"] == row["claim"]) & (evidence["reading"] == AS_CONFIGURED)]
-    rows = [
-        [
-            f'<td class="name">{escape(part)}<small>{escape(found["quantity"].iloc[0])}</small>',
-            f"<td>{escape(found['sense'].iloc[0])} {_percent(found['limit'].iloc[0])}",
-            f"<td>{_span(found['value'])}",
-            f"<td>{_span(found['error'])}",
-            *(f"<td>{(found['outcome'] == word).sum()}" for word in ("yes", "no", "open")),
-        ]
-        for part, found in own.groupby("part", sort=False)
-    ]
-    headings = ["what has to be", "limit", "found, from to", "errors, from to", "yes", "no", "open"]
-    table = _table(headings, rows) if rows else "<p>Nothing was measured or run that could decide it.</p>"
-    title = f"{row['claim']}, {row['figure']}: {_chip(row['verdict'])}"
-    return f"<h2>{title}</h2>\n<p>{escape(row['says'])} {escape(_note(row))}</p>\n{table}"
+    return {
+        "name": row["claim"],
+        "says": row["says"],
+        "figure": row["figure"],
+        "verdict": _chip(row["verdict"]),
+        "number": _number(row),
+        "note": f"{row['parts']}. {row['note']}".strip() if row["parts"] else row["note"],
+        "parts": [
+            {
+                "name": part,
+                "quantity": found["quantity"].iloc[0],
+                "cells": [
+                    f"{found['sense'].iloc[0]} {_percent(found['limit'].iloc[0])}",
+                    _span(found["value"]),
+                    _span(found["error"]),
+                    *((found["outcome"] == word).sum() for word in ("yes", "no", "open")),
+                ],
+            }
+            for part, found in own.groupby("part", sort=False)
+        ],
+    }
 
 
 def _number(row: pd.Series) -> str:
@@ -150,11 +116,6 @@ def _percent(value: float, error: float = math.nan) -> str:
     return f"{100.0 * value:.3g}{spread} %".replace("-", "\N{MINUS SIGN}")
 
 
-def _note(row: pd.Series) -> str:
-    parts = f"{row['parts']}." if row["parts"] else ""
-    return f"{parts} {row['note']}".strip()
-
-
 def _span(values: pd.Series) -> str:
     known = values[values.abs() < math.inf].dropna()
     if known.empty:
@@ -163,31 +124,19 @@ def _span(values: pd.Series) -> str:
     return _percent(low) if low == high else f"{_percent(low)} to {_percent(high)}"
 
 
-def _verdict_of(whole: pd.DataFrame, claim: str, reading: str) -> str:
+def _verdict(whole: pd.DataFrame, claim: str, reading: str) -> str:
+    """Return a verdict over all pressures; empty where the claim was not judged in that reading."""
     found = whole.loc[(whole["claim"] == claim) & (whole["reading"] == reading), "verdict"]
     return str(found.iloc[0]) if len(found) else ""
 
 
-def _chip(verdict: str) -> str:
-    if not verdict:
-        return '<span class="open">not run</span>'
-    mark, kind = _MARKS[verdict.removesuffix(SIMULATED)]
-    return f'<span class="verdict {kind}">{mark} {verdict}</span>'
+def _chip(verdict: str) -> _Chip:
+    return _Chip(verdict or "not run", *_MARKS[verdict.removesuffix(SIMULATED)])
 
 
-def _legend() -> str:
-    return (
-        "A claim <i>holds</i> where every number that can be decided bears it out, and more than half can be; it "
-        "<i>does not hold</i> where none does; <i>open</i> is a number that its error, or a march too short, leaves "
-        "undecided. All numbers are in tables/claims.csv and tables/claims_evidence.csv."
-    )
+def _notes(rows: pd.DataFrame) -> str:
+    return " ".join(dict.fromkeys(note for note in rows["note"] if note))
 
 
 def _words(name: str) -> str:
     return name.replace("_", " ")
-
-
-def _table(headings: list[str], rows: list[list[str]]) -> str:
-    head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
-    body = "\n".join("<tr>" + "".join(f"{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'

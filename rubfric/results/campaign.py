@@ -1,4 +1,4 @@
-"""All scenes of a campaign in one dataset over (scale, velocity, pressure, aspect)."""
+"""All scenes of a campaign as one dataset over (scale, velocity, pressure, aspect)."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ AXES: dict[str, tuple[str, str]] = {
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
 _WARNINGS = "warnings"
 
-# A result's place on the axes, its scalars, what it shares with its campaign, and its road.
+# The coordinates of a result, its scalars, what it shares with its campaign, and its road.
 _Found = tuple[tuple[float, ...], dict[str, float], dict[str, str], dict[str, float]]
 
 
 def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | None = None) -> xr.Dataset:
-    """Gather the scalars of scene results into one dataset; what was not run is NaN.
+    """Collect the scalars of scene results in one dataset; scenes that were not run are NaN.
 
     Parameters
     ----------
     paths : iterable of path-like
         Files written by ``rubfric.write``.
     digests : iterable of str, optional
-        ``Scene.digest`` of the scenes whose results they have to be, one for each.
+        ``Scene.digest`` that each file must have, in the order of ``paths``.
 
     Returns
     -------
@@ -69,7 +69,7 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read what ``collect`` gathered, once it is in a file, whole into memory.
+    """Read a campaign from the file that holds it, completely into memory.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
-    """Read the scalars of all files; one error names every file that is no use."""
+    """Read the scalars of all files; one error names every file that cannot be used."""
     found, wrong = [], []
     for path, digest in zip(files, digests, strict=True):
         try:
@@ -100,7 +100,7 @@ def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
 
 
 def _read_scalars(path: str, digest: str | None) -> _Found:
-    """Return a result's place on the axes, its scalars, what it shares with its campaign, and its road."""
+    """Return the coordinates of a result, its scalars, what it shares with its campaign, and its road."""
     try:
         with netCDF4.Dataset(path) as stored:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time

@@ -1,4 +1,4 @@
-"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and what it takes to redo it."""
+"""The result of a scene as a dataset: fields on a UGRID mesh, scalars, units, and all that reproduces it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import os
 import platform
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,14 +19,14 @@ from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.results.scalars import SCALARS, attributes, scalars
-from rubfric.results.warnings import cautions, faint
+from rubfric.results.warnings import below_noise_warning, warnings
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
-# What the error about a result of other parameters says.
+# Message about a result of other parameters.
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 
-# Read once: looking versions up takes as long as a scene.
+# Read once: looking up versions takes as long as a scene.
 _SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
     + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
@@ -37,8 +38,11 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
 
     Parameters
     ----------
+    solution : SteadySolution
+    energies : Energies
+        Of the solution.
     wall_time : float
-        Seconds that the solution and its energies took.
+        Of the solution and its energies, s.
 
     Returns
     -------
@@ -56,7 +60,7 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
 
 
 def _mesh(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
-    """Return the mesh of the fields: every few columns of the one solved, and the first again at the far side."""
+    """Return the output mesh: every few columns of the mesh that was solved, the first repeated at the far end."""
     block = solution.block
     shear = "" if solution.decision.kinematics == "finite" else ", without the mean shear that friction causes"
     rows, columns = energies.density.shape
@@ -136,17 +140,17 @@ def _surface(solution: SteadySolution) -> dict[str, Any]:
     block, road, contact = solution.block, solution.scene.road, solution.contact
     x = block.column_positions
     return {
-        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, of the block as it was made")),
+        "surface_x": ("surface_x", x, attributes("mm", "distance along the road, undeformed block")),
         "surface_position": (
             "surface_x",
             solution.surface_position,
-            attributes("mm", "distance along the road to which the surface has moved, where the gap is measured"),
+            attributes("mm", "distance along the road of the deformed surface, where the gap is measured"),
         ),
         "road_height": ("surface_x", road.height(x), attributes("mm", "height of the road above its mean plane")),
         "contact_pressure": (
             "surface_x",
             contact.pressure,
-            attributes("MPa", "vertical pressure of the road per area of the rubber as it was made"),
+            attributes("MPa", "vertical pressure of the road per area of the undeformed rubber"),
         ),
         "local_contact_pressure": (
             "surface_x",
@@ -175,7 +179,7 @@ def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
         "plane": scene.plane,
         "software": _SOFTWARE,
         "warnings": "\n".join(
-            [*cautions(solution, energies.closure), *faint(energies.stress_power, energies.resolution)]
+            [*warnings(solution, energies.closure), *below_noise_warning(energies.stress_power, energies.resolution)]
         ),
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
@@ -190,6 +194,12 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
     The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
     name begins with a dot.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+    path : path-like
+        Missing folders are made.
 
     Raises
     ------
@@ -206,17 +216,27 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
         try:
             result.to_netcdf(part, engine="netcdf4", encoding=encoding)
         except (OSError, RuntimeError):
-            part.write_bytes(bytes(2 * result.nbytes))  # netCDF does not say what the matter is; the system does
+            _reserve(part, 2 * result.nbytes)  # netCDF does not give the reason, the system does
             raise
 
 
+def _reserve(path: Path, size: int) -> None:
+    """Allocate a file of ``size`` bytes: OSError with the system's errno where there is no room for it."""
+    with path.open("wb") as stream:
+        if hasattr(os, "posix_fallocate"):
+            os.posix_fallocate(stream.fileno(), 0, size)
+        else:  # macOS
+            stream.write(bytes(size))
+
+
 def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
-    """Read a result whole into memory.
+    """Read the result of a scene, completely into memory.
 
     Parameters
     ----------
+    path : path-like
     digest : str, optional
-        ``Scene.digest`` of the scene whose result it has to be.
+        ``Scene.digest`` that the result must have.
 
     Raises
     ------
@@ -232,7 +252,7 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read any netCDF file whole into memory; BrokenResult where that cannot be."""
+    """Read any netCDF file completely into memory; BrokenResult where it cannot be read."""
     try:
         with xr.open_dataset(path, engine="netcdf4") as stored:
             return stored.load()

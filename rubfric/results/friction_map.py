@@ -12,8 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.errors import InvalidInput
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import pick
 
 Array = NDArray[np.float64]
 
@@ -24,14 +25,14 @@ _VARIABLES = ("friction_coefficient", "friction_coefficient_error")
 class FrictionCurve:
     """Friction over speed at one pressure.
 
-    Between the speeds of the campaign it is a piecewise cubic in the logarithm of speed that has no peaks of its own
-    (Fritsch and Carlson 1980). Below the slowest it falls to zero in proportion to speed, as that of any rubber that
-    relaxes does; a sled needs it there to start. Above the fastest it is held, and nothing should be read from it.
+    Between the speeds of the campaign it is a monotone piecewise cubic in the logarithm of speed, which adds no peaks
+    (Fritsch and Carlson 1980). Below the slowest it falls to zero in proportion to speed, as for any rubber that
+    relaxes; a sled needs it there to start. Above the fastest it is constant, which is no prediction.
 
     Attributes
     ----------
     speeds : numpy.ndarray, shape (speeds,)
-        Those of the campaign, mm/s, ascending.
+        Of the campaign, mm/s, ascending.
     friction, error : numpy.ndarray, shape (speeds,)
         Friction coefficients there and their estimated absolute errors, dimensionless.
     """
@@ -103,13 +104,11 @@ class FrictionMap:
         BrokenResult
             For a campaign without friction or its errors.
         """
-        lacking = [name for name in _VARIABLES if name not in campaign]
-        if lacking:
-            raise BrokenResult(f"the campaign lacks {lacking[0]}: gather the results of its scenes again")
-        fields = [_chosen(campaign[name], aspect, scale) for name in _VARIABLES]
+        chosen = {"aspect": aspect} | ({} if scale is None else {"scale": scale})
+        friction, error = (pick(campaign, name, **chosen) for name in _VARIABLES)
         if scale is None:
-            fields = [total_friction(fields[0]), total_error(fields[1])]
-        friction, error = (field.transpose("pressure", "velocity").sortby(["pressure", "velocity"]) for field in fields)
+            friction, error = total_friction(friction), total_error(error)
+        friction, error = (field.transpose("pressure", "velocity") for field in (friction, error))
         friction = friction.dropna("pressure", how="all").dropna("velocity", how="all")
         if friction.size == 0 or not bool(np.isfinite(friction.values).all()):
             raise InvalidInput("the campaign has no friction at some of its speeds and pressures: run it whole")
@@ -130,19 +129,6 @@ class FrictionMap:
     def holds(self, pressure: float) -> bool:
         """Return whether a pressure (MPa) lies within those of the campaign."""
         return bool(self.pressures[0] * (1.0 - 1e-9) <= pressure <= self.pressures[-1] * (1.0 + 1e-9))
-
-
-def _chosen(field: xr.DataArray, aspect: float, scale: int | None) -> xr.DataArray:
-    """Return one ratio, and one scale where it is given."""
-    wanted = {"aspect": aspect} | ({} if scale is None else {"scale": scale})
-    for axis, value in wanted.items():
-        known = np.asarray(field[axis].values, dtype=np.float64)
-        found = np.flatnonzero(np.isclose(known, value, rtol=1e-9, atol=0.0))
-        if found.size == 0:
-            listed = ", ".join(f"{number:g}" for number in np.sort(known))
-            raise InvalidInput(f"{axis} is {value:g}, but the campaign has {listed}")
-        field = field.isel({axis: int(found[0])})
-    return field
 
 
 def _through(places: Array, values: Array) -> Callable[[Array], Array]:

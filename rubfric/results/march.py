@@ -1,4 +1,4 @@
-"""The march of a scene as a dataset: every step, every wavelength, and the steady solver's friction to compare with."""
+"""The march of a scene as a dataset: every step, every wavelength, and the friction of the steady solver."""
 
 from __future__ import annotations
 
@@ -29,21 +29,21 @@ RECORDS: dict[str, tuple[str, str]] = {
     "dissipated": ("N", "energy dissipated in the step, N mm per mm of thickness"),
     "road_work": ("N", "work of the road in the step, N mm per mm of thickness"),
     "load_work": ("N", "work of the load in the step, N mm per mm of thickness"),
-    "imbalance": ("N", "what the first law misses in the step, N mm per mm of thickness"),
+    "imbalance": ("N", "imbalance of the first law in the step, N mm per mm of thickness"),
     "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
     "top_displacement": ("mm", "mean displacement of the top away from the road"),
     "iterations": ("1", "Newton steps or pivoting steps"),
     "krylov": ("1", "applications of the tangent stiffness"),
-    "halvings": ("1", "how often the step was halved"),
+    "halvings": ("1", "number of times the step was halved"),
 }
 _SCALARS: dict[str, tuple[str, str]] = {
-    "saturated": ("1", "1 where friction stayed within the tolerance for as long as the rubber remembers, else 0"),
+    "saturated": ("1", "1 where friction stayed within the tolerance over the memory of the rubber, else 0"),
     "saturation_friction": ("1", "friction coefficient, mean over the last wavelength"),
     "saturation_wavelengths": ("1", "wavelengths slid at full speed"),
-    "saturation_needed": ("1", "wavelengths over which friction has to stay the same"),
+    "saturation_needed": ("1", "wavelengths over which friction must not change"),
     "saturation_variation": ("1", "relative variation of friction over as many wavelengths, or over all there are"),
-    "memory_wavelengths": ("1", "wavelengths that the slowest Prony branch remembers"),
-    "first_law_imbalance": ("1", "what the first law misses at full speed over the work of the road"),
+    "memory_wavelengths": ("1", "memory of the slowest Prony branch in wavelengths"),
+    "first_law_imbalance": ("1", "imbalance of the first law at full speed over the work of the road"),
     "steady_friction_coefficient": ("1", "friction coefficient of steady sliding, solved directly"),
     "wall_time": ("s", "wall time of all steps"),
 }
@@ -54,6 +54,7 @@ def build(march: Transient, steady_friction: float) -> xr.Dataset:
 
     Parameters
     ----------
+    march : Transient
     steady_friction : float
         Friction coefficient of the same scene by the steady solver.
 
@@ -98,7 +99,7 @@ def _values(march: Transient, steady_friction: float) -> dict[str, float | int]:
 
 
 def _memory(scene: Scene) -> float:
-    """Return the wavelengths that the slowest branch remembers, tau v / lambda."""
+    """Return the memory of the slowest branch in wavelengths, tau v / lambda."""
     return max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
 
 

@@ -17,21 +17,21 @@ SCALARS: dict[str, tuple[str, str]] = {
     "friction_coefficient_contact": ("1", "friction coefficient from contact pressure and road slope"),
     "friction_coefficient_error": ("1", "estimated error of the friction coefficient, absolute"),
     "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
-    "friction_resolution": ("1", "friction that the solver cannot tell from zero"),
+    "friction_resolution": ("1", "friction below which the solver cannot distinguish it from zero"),
     "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
     "maximum_contact_pressure": ("MPa", "largest contact pressure"),
     "maximum_local_contact_pressure": ("MPa", "largest contact pressure per deformed area"),
-    "nominal_compression": ("1", "share of its height that the load takes from the relaxed block on a flat road"),
+    "nominal_compression": ("1", "compression of the relaxed block by the load on a flat road, over its height"),
     "pressed_energy_density": ("MPa", "strain-energy density of the relaxed block on a flat road under the load"),
     "finite_strain": ("1", "1 where the scene was solved in finite strain, 0 in small strain"),
     "finite_strain_correction": ("1", "estimated relative change of friction from small to finite strain"),
-    "branches_relaxed": ("1", "Prony branches left out because they are relaxed at every harmonic"),
-    "branches_frozen": ("1", "Prony branches gathered in one because they are frozen at every harmonic"),
-    "folding_bound": ("1", "bound on the relative change of the loss modulus by leaving out and gathering"),
+    "branches_relaxed": ("1", "Prony branches omitted because they are relaxed at every harmonic"),
+    "branches_frozen": ("1", "Prony branches merged because they are frozen at every harmonic"),
+    "folding_bound": ("1", "bound on the relative change of the loss modulus by omitting and merging branches"),
     "effective_poissons_ratio": ("1", "real part of the complex Poisson's ratio at the excitation frequency"),
     "shear_wave_speed_ratio": ("1", "sliding speed over shear-wave speed at the excitation frequency"),
     "excitation_frequency": ("rad s-1", "angular frequency at which the road excites the rubber"),
-    "meshes": ("1", "meshes that the scene was solved on, from coarse to fine"),
+    "meshes": ("1", "meshes on which the scene was solved, from coarse to fine"),
     "columns": ("1", "cells along one wavelength of the mesh that was solved"),
     "rows": ("1", "cells over the height of the mesh that was solved"),
     "contact_nodes": ("1", "surface nodes in contact"),
@@ -42,12 +42,29 @@ SCALARS: dict[str, tuple[str, str]] = {
 
 
 def attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
-    """Return the attributes of a variable."""
+    """Return the attributes of a variable.
+
+    Parameters
+    ----------
+    unit, long_name : str
+        As the CF conventions want them.
+    **more
+        Further attributes.
+    """
     return {"units": unit, "long_name": long_name, **more}
 
 
 def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> dict[str, float | int]:
-    """Return the values of ``SCALARS`` for a solved scene that took ``wall_time`` seconds."""
+    """Return the values of ``SCALARS`` for a solved scene.
+
+    Parameters
+    ----------
+    solution : SteadySolution
+    energies : Energies
+        Of the solution.
+    wall_time : float
+        Of both, s.
+    """
     scene, contact = solution.scene, solution.contact
     frequency = scene.road.excitation_frequency(scene.velocity)
     return {

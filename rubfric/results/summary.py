@@ -8,7 +8,7 @@ _WIDTH = 34
 
 
 def summary(result: xr.Dataset) -> str:
-    """Return a result as text: the friction first, then what it rests on, then any warnings."""
+    """Return a result as text: the friction first, then contact, mesh and kinematics, then any warnings."""
     attributes = result.attrs
     friction = float(result["friction_coefficient"])
     lines = [

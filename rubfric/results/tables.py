@@ -11,6 +11,7 @@ import xarray as xr
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import check_variables
 
 # variable: heading
 _COLUMNS = {
@@ -38,8 +39,21 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
-    """Return all scenes of one scale, by aspect, pressure and speed; BrokenResult if the campaign lacks a column."""
-    _check(campaign, *_COLUMNS)
+    """Return all scenes of one scale, by aspect, pressure and speed.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.results.campaign.collect``.
+    scale : int
+        Of the road, 1 being the coarsest.
+
+    Raises
+    ------
+    BrokenResult
+        If the campaign lacks a variable of the table.
+    """
+    check_variables(campaign, *_COLUMNS)
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
@@ -49,9 +63,24 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
 def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
     """Return the friction of every scale, their sum and a bound on its error, where all scales were run.
 
-    By pressure and speed; BrokenResult if the campaign lacks a column.
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.results.campaign.collect``.
+    aspect : float
+        Height over width of the blocks.
+
+    Returns
+    -------
+    pandas.DataFrame
+        By pressure (MPa) and speed (mm/s).
+
+    Raises
+    ------
+    BrokenResult
+        If the campaign lacks a variable of the table.
     """
-    _check(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
+    check_variables(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
     friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
     total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
     error = total_error(campaign["friction_coefficient_error"].sel(aspect=aspect, drop=True))
@@ -68,13 +97,13 @@ def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:
-    """Return a table from a CSV file; an empty field, and nan, is a gap.
+    """Return a table from a CSV file; empty fields and nan are missing values.
 
     Parameters
     ----------
     path : path-like
     words : sequence of str
-        Columns to keep as they are written, where the table has them: ``0.10`` stays ``0.10``, ``off`` is a word.
+        Columns to read as text, where the table has them: ``0.10`` stays ``0.10``, ``off`` a word.
 
     Raises
     ------
@@ -88,13 +117,19 @@ def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFra
         raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
 
 
-def _check(campaign: xr.Dataset, *variables: str) -> None:
-    lacking = [name for name in variables if name not in campaign]
-    if lacking:
-        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
-
-
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
-    """Write a table as CSV with six significant digits, whole or not at all."""
+    """Write a table as CSV with six significant digits, whole or not at all.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+    path : path-like
+        Missing folders are made.
+
+    Raises
+    ------
+    NotWritten
+        Where the disk is full or the place is not writable.
+    """
     with whole(path) as part:
         table.to_csv(part, index=False, float_format="%.6g")

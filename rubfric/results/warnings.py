@@ -1,4 +1,4 @@
-"""What a reader should know of a solved scene before trusting its numbers."""
+"""Warnings about a solved scene: where its number is no prediction, inaccurate or below the noise of the solver."""
 
 from __future__ import annotations
 
@@ -10,14 +10,21 @@ from rubfric.mechanics.steady.solution import SteadySolution
 
 # Above this share of the shear-wave speed inertia would matter; the model has none.
 _SPEED_LIMIT = 0.3
-# A stretch of the surface along the road of less than this is a fold in the making, which the mesh cannot follow.
+# Below this stretch along the road the surface is about to fold, which the mesh cannot resolve.
 _FOLD_LIMIT = 0.1
-# The aim for the difference between the three friction coefficients, where no less accuracy was asked for.
+# Largest difference of the three friction coefficients, unless a lower accuracy was asked for.
 _CLOSURE_LIMIT = 0.01
 
 
-def cautions(solution: SteadySolution, closure: float) -> list[str]:
-    """Return what a reader should know before trusting the result, one sentence each; none is an error."""
+def warnings(solution: SteadySolution, closure: float) -> list[str]:
+    """Return the warnings about a solved scene, one sentence each.
+
+    Parameters
+    ----------
+    solution : SteadySolution
+    closure : float
+        Largest relative difference of the three friction coefficients.
+    """
     scene = solution.scene
     frequency = scene.road.excitation_frequency(scene.velocity)
     poisson = float(scene.material.effective_poissons_ratio(frequency))
@@ -30,7 +37,7 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
         )
     if ratio > _SPEED_LIMIT:
         found.append(
-            f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but would matter."
+            f"The sliding speed is {ratio:.2g} of the shear-wave speed: inertia is neglected, but matters there."
         )
     if solution.decision.kinematics == "small":
         found += _small_strain(solution)
@@ -49,7 +56,7 @@ def cautions(solution: SteadySolution, closure: float) -> list[str]:
 
 
 def _inaccurate(solution: SteadySolution) -> list[str]:
-    """Return that the accuracy asked for was not met, if so, and what would help."""
+    """Return a warning with a remedy where the accuracy asked for is not met."""
     friction, error = abs(solution.friction.stress_power), friction_error(solution)
     if error <= solution.scene.numerics.accuracy * friction or friction <= solution.friction.resolution:
         return []
@@ -68,22 +75,29 @@ def _remedy(solution: SteadySolution) -> str:
     return "raise numerics.refinements or numerics.columns_max"
 
 
-def faint(friction: float, resolution: float) -> list[str]:
-    """Return what to know of friction that the solver cannot tell from zero, where there is any; both dimensionless."""
+def below_noise_warning(friction: float, resolution: float) -> list[str]:
+    """Return a warning where friction is positive but below the resolution of the solver.
+
+    Parameters
+    ----------
+    friction, resolution : float
+        Friction coefficient, and the friction below which it cannot be distinguished from zero; dimensionless.
+    """
     if not 0.0 < friction < resolution:
         return []
     return [
-        f"Friction is below {resolution:.1g}, which the solver cannot tell from zero: only its smallness is certain."
+        f"Friction is below {resolution:.1g}, which the solver cannot distinguish from zero: only this upper bound is "
+        "certain."
     ]
 
 
 def _small_strain(solution: SteadySolution) -> list[str]:
-    """Return what small strain does to a scene that asked for it; nothing where it is accurate enough."""
+    """Return a warning where small strain, asked for, is inaccurate or invalid."""
     scene, correction = solution.scene, solution.decision.correction
     if solution.compression >= 1.0:
         return [
-            f"The load presses the block by {solution.compression:.0%} of its height, which small strain cannot mean: "
-            "the number is no prediction; kinematics: finite gives one."
+            f"The load presses the block by {solution.compression:.0%} of its height, more than small strain can "
+            "represent: the number is no prediction; kinematics: finite gives one."
         ]
     if correction > scene.numerics.accuracy:
         return [

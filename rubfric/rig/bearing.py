@@ -15,7 +15,7 @@ from rubfric.rig.speed import cells
 from rubfric.rig.tare import find_zero
 from rubfric.rig.windows import find_windows
 
-# Windows that a dependence on speed is drawn through, at least, and by what factor their speeds must differ.
+# Fewest windows for a dependence on speed, and the factor by which their speeds must differ.
 _FEWEST, _SPAN = 4, 3.0
 
 
@@ -47,7 +47,15 @@ class Drag:
     damping_error: float = 0.0
 
     def __call__(self, speed: float, normal: float) -> float:
-        """Return the drag (N) at a speed (mm/s, positive) and a normal force (N)."""
+        """Return the drag, N.
+
+        Parameters
+        ----------
+        speed : float
+            mm/s, positive.
+        normal : float
+            Normal force, N.
+        """
         return self.force + self.damping * speed + self.coefficient * normal
 
     def error_at(self, speed: float) -> float:
@@ -56,15 +64,22 @@ class Drag:
 
 
 def given_drag(bearing: Bearing) -> Drag:
-    """Return the drag that the user gives; his uncertainty counts as two standard errors."""
+    """Return the drag that the user gives; the uncertainty given counts as two standard errors."""
     return Drag(bearing.force, 0.0, bearing.coefficient, 0.5 * bearing.uncertainty)
 
 
 def measured_drag(pull: Record, settings: Settings) -> Drag:
     """Return the drag from an unloaded pull, with the sensor in the rope.
 
-    The rope accelerates the sled, too: its mass times its acceleration is subtracted. Through windows of different
-    speeds a straight line is drawn, through others their mean.
+    The rope accelerates the sled, too: its mass times its acceleration is subtracted. A straight line over speed is
+    fitted where the windows differ enough in speed, and otherwise a constant.
+
+    Parameters
+    ----------
+    pull : Record
+        Of the unloaded pull.
+    settings : Settings
+        Mass of the sled (kg), bearings, tare and windows.
 
     Raises
     ------
@@ -99,9 +114,9 @@ def measured_drag(pull: Record, settings: Settings) -> Drag:
     )
     force, damping = float(found[0]), float(found[1]) if sloped else 0.0
     middle = float(np.average(speeds, weights=trust**2))
-    # No less than the scatter about the line tells, nor than the errors of its points.
+    # At least the scatter about the line, and at least the errors of its points.
     unit = max(1.0, float(np.sqrt(np.sum((spread * trust) ** 2) / freedom)))
     tilt = unit / float(np.linalg.norm(trust * (np.array(speeds) - middle))) if sloped else 0.0
-    told = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * doubt:.2g} N"
-    notes = (f"{told}, from {pull.name} at {min(speeds):.3g} to {max(speeds):.3g} mm/s",)
+    words = f"bearing drag {force:.4g} N{f' + {damping:.3g} N s/mm v' if sloped else ''} +- {2.0 * doubt:.2g} N"
+    notes = (f"{words}, from {pull.name} at {min(speeds):.3g} to {max(speeds):.3g} mm/s",)
     return Drag(force, damping, settings.bearing.coefficient, doubt, notes, middle, tilt)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 from rubfric.config import campaign as campaigns
-from rubfric.config.rigchoice import TRACTIONS, VirtualRig, read_virtual
+from rubfric.config.models import TRACTIONS, VirtualRig
 from rubfric.errors import InvalidInput
 
 _REDUCE = """\
@@ -154,9 +153,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 def _virtual(virtual: VirtualRig, options: argparse.Namespace) -> VirtualRig:
     """Return the config's virtual rig with what the options replace, checked as the config is."""
-    names = [field.name for field in fields(VirtualRig)]
-    given = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
-    changed = replace(virtual, **given)
+    given = {name: value for name in VirtualRig.model_fields if (value := getattr(options, name)) is not None}
     if options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
-    return read_virtual({name: getattr(changed, name) for name in names})
+    return VirtualRig.read("rig.virtual", dict(virtual) | given)

@@ -1,4 +1,4 @@
-"""Where a force reads no further than its sensor or its logger can: readings that pile up at one value."""
+"""Readings of a force that are clipped at the limit of its sensor or logger, where they pile up at one value."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rubfric.arrays import Flags, Real
 
 # Fewest readings at one extreme that make a pile, and readings in a row in it.
 _PILE, _ROW = 8, 4
-# A pile holds more readings than so many levels beside it; noise has its rarest readings at its extremes.
+# A pile has more readings than this number of neighbouring levels together; noise has few readings at its extremes.
 _LEVELS = 3
 
 
@@ -16,8 +16,8 @@ def clipped(readings: Real, limit: float | None = None) -> Flags:
     """Return which readings of a sensor are clipped.
 
     Where the limit of the sensor is known, those at it or beyond. Otherwise those at the largest or the smallest
-    reading, where that is far more frequent than the readings next to it: such a sensor has clipped, or is so coarse
-    that its last digit hides the force.
+    reading, where that is far more frequent than the readings next to it: such a sensor is clipped, or too coarse to
+    resolve the force.
 
     Parameters
     ----------

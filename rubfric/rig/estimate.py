@@ -1,12 +1,12 @@
 """Means over a window, with their confidence, from samples that may be correlated and whose speed may change.
 
-A window has a slow change of speed that no one knows the form of, and friction follows it. A polynomial fitted to each
-quantity would have to be of the right order: a bend too small to be seen shifts a value in the middle by up to several
-of its standard errors. Means need no order. All quantities are averaged with the same weight, w = (1 - u²)² over the
-window (u from -1 to 1), and belong together whatever the speed does: of the equation of motion this is the weak form,
-with w for a test function. As w and its slope vanish at both ends, partial integration takes the mean speed and
-the mean acceleration from the displacement itself: int w v dt = -int w' x dt, int w a dt = int w'' x dt. (For evenly
-spaced times the latter is the parabola fitted by least squares.)
+The speed changes slowly within a window, in an unknown way, and friction follows it. A polynomial fitted to each
+quantity would have to be of the right order: a curvature too small to be seen shifts a value in the middle by up to
+several of its standard errors. Means need no order. All quantities are averaged with the same weight,
+w = (1 - u²)² over the window (u from -1 to 1), and belong together whatever the speed does: it is the weak form of the
+equation of motion with the test function w. As w and its slope vanish at both ends, partial integration gives the mean
+speed and the mean acceleration from the displacement itself: int w v dt = -int w' x dt, int w a dt = int w'' x dt.
+(For evenly spaced times the latter is the parabola fitted by least squares.)
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from scipy.stats import t as student
 from rubfric.arrays import Real
 
 CONFIDENCE = 0.95
-# A coefficient of a polynomial counts where it exceeds so many of its standard errors, up to this order.
+# A coefficient of a polynomial is significant above this multiple of its standard error; highest order.
 _CLEAR, _HIGHEST = 3.0, 7
 
 
@@ -86,7 +86,7 @@ class Weights:
 def weights(time: Real) -> Weights:
     """Return the weights (1 - u²)² of a window; its samples may lie at any distance.
 
-    Between two samples each quantity runs straight. So the mean rate of what is sampled is exact for a straight line,
+    Each quantity is linear between two samples. So the mean rate of what is sampled is exact for a straight line,
     and the mean of a force belongs to it however uneven the samples are.
 
     Parameters
@@ -121,15 +121,21 @@ def mean(values: Real, weight: Real, noise: Noise) -> Mean:
 
 
 def plain_mean(time: Real, values: Real) -> Mean:
-    """Return the mean of samples of one height, all of one weight."""
+    """Return the mean of samples of a constant, all with the same weight.
+
+    Parameters
+    ----------
+    time, values : numpy.ndarray, shape (samples,)
+        s, and any unit.
+    """
     return mean(values, np.full(values.size, 1.0 / values.size), noise_of(time, values, 0, 0))
 
 
 def noise_of(time: Real, values: Real, order: int, most: int = _HIGHEST, longer: float = 1.0) -> Noise:
     """Return the noise of samples about a polynomial.
 
-    Its order is raised while the next coefficient exceeds three times its standard error. What bend is left unseen
-    counts as noise; it widens intervals a little, and shifts nothing.
+    Its order is raised while the next coefficient exceeds three times its standard error. Curvature
+    too small to be seen counts as noise; it widens intervals a little, and shifts nothing.
 
     Parameters
     ----------
@@ -165,7 +171,7 @@ def noise_of(time: Real, values: Real, order: int, most: int = _HIGHEST, longer:
 
 
 def _about(rest: Real, order: int, longer: float) -> Noise:
-    """Return the noise that is left beside a polynomial; without slopes."""
+    """Return the noise of the residuals of a polynomial; without slopes."""
     effective = rest.size / max(correlation_length(rest), longer)
     freedom = max(effective - order - 1.0, 1.0)
     return Noise(float(rest @ rest) / freedom, effective, freedom, 0.0, 0.0)
@@ -196,5 +202,13 @@ def correlation_length(residuals: Real) -> float:
 
 
 def halfwidth(error: float, freedom: float) -> float:
-    """Return the half-width of the 95 % confidence interval that goes with a standard error."""
+    """Return the half-width of the 95 % confidence interval, by Student's t distribution.
+
+    Parameters
+    ----------
+    error : float
+        Standard error, in any unit.
+    freedom : float
+        Its degrees of freedom.
+    """
     return error * float(student.ppf(0.5 + 0.5 * CONFIDENCE, freedom))

@@ -1,4 +1,4 @@
-"""Which column of a logger's file holds what: by the names given, or by names that are usual."""
+"""Which column of a logger's file holds which quantity: by the names given, or by usual names."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rubfric.errors import InvalidInput
-from rubfric.rig.units import QUANTITIES, factor, split_heading
+from rubfric.rig.units import QUANTITIES, check_factor, factor, split_heading
 
 _USUAL = {
     "time": {"time", "t", "zeit", "elapsed", "elapsed time", "relative time", "timestamp", "test time"},
@@ -17,19 +17,27 @@ _USUAL = {
     | {"horizontal force", "rope force", "ft", "f t", "fx", "f x", "reibkraft", "zugkraft", "pull", "drag"},
     "displacement": {"displacement", "position", "distance", "travel", "x", "s", "weg", "pos", "disp", "stroke"},
 }
-_TELLING = {
+_TYPICAL = {
     "time": {"time", "zeit"},
     "normal": {"normal", "vertical", "normalkraft"},
     "traction": {"traction", "tangential", "friction", "horizontal", "reibkraft", "zugkraft", "rope"},
     "displacement": {"displacement", "position", "travel", "distance", "stroke", "weg"},
 }
-# What loggers compute themselves is none of the four.
+# Quantities that loggers compute are none of the four.
 _DERIVED = {"coefficient", "cof", "mu", "speed", "velocity", "acceleration", "coeff"}
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a file: its place, and what its numbers have to be multiplied by to be in s, N or mm."""
+    """A column of a file.
+
+    Attributes
+    ----------
+    place : int
+        Its number, from 0.
+    factor : float
+        What its numbers have to be multiplied by to be in s, N or mm.
+    """
 
     place: int
     factor: float
@@ -57,7 +65,6 @@ def recognise(
         Quantity to heading, where the user names it: with the unit or without.
     given : mapping
         Quantity to unit, where the user gives it.
-
     clocks : sequence of int
         Columns of clock times, which are in s whatever the heading says.
 
@@ -79,10 +86,8 @@ def recognise(
                 f"{path} names no unit for the column {headings[place]!r}: write it in the heading, as in "
                 f"'{headings[place]} (N)', or under units in the YAML file of --columns"
             )
-        number = factor(quantity, unit)
-        if number is None:
-            raise InvalidInput(f"{path} has the column {headings[place]!r} in {unit!r}, which is no unit of {quantity}")
-        found[quantity] = Column(place, number)
+        key = f"the unit of {headings[place]!r} in {path}, the column of {quantity},"
+        found[quantity] = Column(place, check_factor(key, quantity, unit))
     places = [column.place for column in found.values()]
     for quantity, column in found.items():
         if places.count(column.place) > 1:
@@ -114,7 +119,7 @@ def _place(path: str, quantity: str, headings: Sequence[str], names: Sequence[st
     plain = [" ".join(re.split(r"[\W_]+", name.casefold())).strip() for name in names]
     found = [i for i, name in enumerate(plain) if name in _USUAL[quantity]]
     if not found:
-        found = [i for i, name in enumerate(plain) if _tells(name) == quantity]
+        found = [i for i, name in enumerate(plain) if _quantity_of(name) == quantity]
     if len(found) != 1:
         many = "no column that looks like" if not found else f"{len(found)} columns that may be"
         raise InvalidInput(
@@ -124,8 +129,8 @@ def _place(path: str, quantity: str, headings: Sequence[str], names: Sequence[st
     return found[0]
 
 
-def _tells(name: str) -> str | None:
-    """Return the one quantity that the words of a heading tell of, or None."""
+def _quantity_of(name: str) -> str | None:
+    """Return the one quantity that the words of a heading name, or None."""
     words = set(name.split())
-    told = [quantity for quantity, telling in _TELLING.items() if words & telling]
-    return told[0] if len(told) == 1 and not words & _DERIVED else None
+    named = [quantity for quantity, typical in _TYPICAL.items() if words & typical]
+    return named[0] if len(named) == 1 and not words & _DERIVED else None

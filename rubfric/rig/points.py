@@ -22,7 +22,7 @@ _CONSISTENT = 0.5
 # of ln(speed): (change of ln(speed) / 2)² / 7 under the weight. Of a Maxwell element's friction, ~ 1 / cosh(ln(speed)),
 # that derivative is no larger than friction itself; nor is it, at a given contact, of a sum of elements and scales.
 _SPREAD = 0.5 / 4.0 / 7.0
-# No rubber's friction coefficient on a road is larger.
+# Friction coefficients of rubber on a road are smaller.
 _LARGEST = 5.0
 
 
@@ -53,9 +53,25 @@ class Loaded:
 
 @dataclass(frozen=True)
 class Point:
-    """Friction measured in a window; every ``_ci95`` is half the width of a 95 % confidence interval.
+    """Friction measured in a window; every ``_ci95`` is the half-width of a 95 % confidence interval.
 
-    Times in s, speed in mm/s, pressure in MPa, acceleration in mm/s², travel in mm.
+    Attributes
+    ----------
+    kind : {"steady", "sweep"}
+    start, end : float
+        s.
+    samples : int
+    effective_samples : float
+        Number of independent samples that are worth as much.
+    travel : float
+        mm.
+    acceleration : float
+        mm/s².
+    speed, speed_ci95 : float
+        mm/s.
+    pressure, pressure_ci95 : float
+        MPa.
+    friction_coefficient, friction_coefficient_ci95 : float
     """
 
     kind: str
@@ -75,7 +91,17 @@ class Point:
 
 @dataclass(frozen=True)
 class Rejected:
-    """A window without a point, and why; speed (mm/s) and pressure (MPa) where they are known."""
+    """A window without a point.
+
+    Attributes
+    ----------
+    start, end : float
+        s.
+    samples : int
+    speed, pressure : float
+        mm/s and MPa, where they are known; else NaN.
+    reason : str
+    """
 
     start: float
     end: float
@@ -88,12 +114,21 @@ class Rejected:
 def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> Point | Rejected:
     """Return the point of a window, or the first reason against it.
 
-    All values are means of one weight, as ``rubfric.rig.estimate`` tells, so that friction belongs to the speed that is
+    All values are means with one weight (``rubfric.rig.estimate``), so that friction belongs to the speed that is
     given with it, however the speed changes within the window. Friction is the ratio of the mean forces, and its
     variance that of traction - mu normal force, so that what both sensors share does not count twice.
 
     A sensor at the rubber reads the rubber's friction. One in the rope also reads what accelerates the sled and what
     its bearings take, which is subtracted.
+
+    Parameters
+    ----------
+    loaded : Loaded
+    window : Window
+    settings : Settings
+        Area (mm²), place of the sensor of traction, mass of the sled (kg), calibration and limits of windows.
+    drag : Drag
+        Of the bearings; for a sensor in the rope.
     """
     part = slice(window.start, window.end)
     time, place, pressing = loaded.record.time[part], loaded.record.displacement[part], loaded.normal[part]
@@ -148,7 +183,7 @@ def evaluate(loaded: Loaded, window: Window, settings: Settings, drag: Drag) -> 
 
 
 def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
-    """Return why a window cannot be evaluated, or nothing."""
+    """Return why a window cannot be evaluated; empty if it can."""
     part = slice(window.start, window.end)
     samples = window.end - window.start
     travel = float(np.ptp(loaded.record.displacement[part]))
@@ -170,15 +205,15 @@ def _unfit(loaded: Loaded, window: Window, limits: Windows) -> str:
 def _independent(point: Point, longer: float) -> float:
     """Return the number of independent samples by which a window is judged.
 
-    That of the unloaded sensors' noise, unless the window's own is far smaller. A short window's own number is noise
-    itself: to judge by it would keep those windows whose errors are thought too small.
+    That of the unloaded sensors' noise, unless the window's own is far smaller. The number estimated in a short window
+    is noisy: a selection by it would keep the windows whose errors are underestimated.
     """
     known = point.samples / longer
     return known if point.effective_samples > _CONSISTENT * known else point.effective_samples
 
 
 def _doubt(point: Point, independent: float, changes: tuple[float, float], clear: bool, limits: Windows) -> str:
-    """Return why what was found in a window is not trusted, or nothing."""
+    """Return why the point of a window is rejected; empty if it is not."""
     friction, doubt = point.friction_coefficient, point.friction_coefficient_ci95
     if independent < _FEWEST_EFFECTIVE:
         return (

@@ -1,4 +1,4 @@
-"""The record of one run: time, forces and displacement, put in order, with notes on what had to be done."""
+"""The record of one run: time, forces and displacement, in order, with notes on what was changed."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ FEWEST_SAMPLES = 50
 _MOST_MISSING, _MOST_SPIKES = 0.2, 0.02
 # Stretches of rising time, in samples, that may be runs of their own.
 _LONG_STRETCH = 10
-# By turns such stretches may follow one another in time so often, for each.
+# How often such stretches may alternate in time, for each of them.
 _CHANGES = 4
-# A pause of so many usual intervals is a gap.
+# A pause of so many median intervals is a gap.
 _GAP = 8.0
 # Half the width of the running median, samples, and how many robust standard deviations from it are a spike.
 _HALF, _SPIKE = 3, 12.0
@@ -37,14 +37,14 @@ class Record:
     Attributes
     ----------
     name : str
-        The file, or what stands for it.
+        Of the file or the simulated run.
     source : {"measured", "simulated"}
     time, normal, traction, displacement : numpy.ndarray, shape (samples,)
         s, N, N, mm; time rises.
     overloaded : numpy.ndarray of bool, shape (samples,)
         Where the logger wrote an overload instead of a force.
     notes : tuple of str
-        What was done to bring the record in order.
+        What was changed in the record.
     """
 
     name: str
@@ -69,6 +69,13 @@ class Record:
 
 def read_record(path: str, settings: Settings) -> Record:
     """Read and order the file of one run.
+
+    Parameters
+    ----------
+    path : str
+        Text file (CSV).
+    settings : Settings
+        Columns, units, separator and decimal mark, where they are not recognised.
 
     Raises
     ------
@@ -100,7 +107,7 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     InvalidInput
         Where too little is left, or the clock began again.
     """
-    told = list(notes)
+    done = list(notes)
     whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
     lost = int(np.count_nonzero(~whole))
     if lost > _MOST_MISSING * whole.size:
@@ -108,8 +115,8 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
             f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %"
         )
     if lost:
-        told.append(f"{lost} rows that lack a value left out")
-    values = _in_order(name, values[:, whole], told)
+        done.append(f"{lost} rows that lack a value left out")
+    values = _in_order(name, values[:, whole], done)
     _check_length(name, values)
     overloaded = np.asarray(~np.isfinite(values[1:3]).all(axis=0))
     values = np.where(np.isfinite(values), values, 0.0)
@@ -117,14 +124,14 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     if np.count_nonzero(spiky) > _MOST_SPIKES * spiky.size:
         raise InvalidInput(f"{name} has spikes in {np.count_nonzero(spiky)} of its {spiky.size} rows: mend the sensor")
     if spiky.any():
-        told.append(f"{np.count_nonzero(spiky)} rows with spikes left out")
+        done.append(f"{np.count_nonzero(spiky)} rows with spikes left out")
         values, overloaded = values[:, ~spiky], overloaded[~spiky]
     time, normal, traction, place = values
     record = Record(name, source, time, normal, traction, place, overloaded)
     gaps = len(record.stretches()) - 1
     if gaps:
-        told.append(f"{gaps} gaps in time, which no window spans")
-    return record.noted(*told)
+        done.append(f"{gaps} gaps in time, which no window spans")
+    return record.noted(*done)
 
 
 def _check_length(name: str, values: Real) -> None:
@@ -132,21 +139,21 @@ def _check_length(name: str, values: Real) -> None:
         raise InvalidInput(f"{name} has {values.shape[1]} usable rows, but must have at least {FEWEST_SAMPLES}")
 
 
-def _in_order(name: str, values: Real, told: list[str]) -> Real:
-    """Return samples by time, rows that stand twice once, and the mean of samples of one time."""
+def _in_order(name: str, values: Real, done: list[str]) -> Real:
+    """Return samples by time, repeated rows once, and the mean of samples of one time."""
     if np.unique(values[0]).size < values.shape[1]:
         _, first = np.unique(values, axis=1, return_index=True)
         if first.size < values.shape[1]:
-            told.append(f"{values.shape[1] - first.size} rows that stand twice left out")
+            done.append(f"{values.shape[1] - first.size} repeated rows left out")
             values = values[:, np.sort(first)]
     time = values[0]
     if np.any(np.diff(time) < 0.0):
         _check_clock(name, time)
-        told.append("rows put in the order of time")
+        done.append("rows put in the order of time")
         values = values[:, np.argsort(time, kind="stable")]
     stamps, place, count = np.unique(values[0], return_inverse=True, return_counts=True)
     if stamps.size < values.shape[1]:
-        told.append(f"{values.shape[1] - stamps.size} time stamps stand more than once: means taken")
+        done.append(f"{values.shape[1] - stamps.size} repeated time stamps: means taken")
         finite = np.isfinite(values)
         sums = np.stack(
             [np.bincount(place, np.where(known, row, 0.0)) for row, known in zip(values, finite, strict=True)]
@@ -176,9 +183,9 @@ def _check_clock(name: str, time: Real) -> None:
 
 
 def _spikes(values: Real, overloaded: Flags) -> Flags:
-    """Return which samples lie far from the running median: single readings that no sled and no force can make.
+    """Return which samples lie far from the running median: single readings that no motion or force explains.
 
-    The running median follows ramps and steps, so that only what comes and goes within three samples is a spike
+    The running median follows ramps and steps, so that only a change that lasts for at most three samples is a spike
     (Hampel's rule).
     """
     found = np.zeros(values.shape[1], dtype=bool)
@@ -187,7 +194,7 @@ def _spikes(values: Real, overloaded: Flags) -> Flags:
         usual = 1.4826 * np.median(distance)
         changes = np.abs(np.diff(channel))
         moving = changes[changes > 0.0]
-        # The least that a reading can change by, for channels that stand still most of the time.
+        # Smallest change of a reading, for channels that are at rest most of the time.
         least = float(np.percentile(moving, 75.0)) if moving.size else 0.0
         found |= distance > _SPIKE * max(usual, least)
     return found & ~overloaded

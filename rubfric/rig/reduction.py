@@ -43,15 +43,23 @@ REJECTED_COLUMNS = {
     "pressure": "pressure_MPa",
     "reason": "reason",
 }
-
-
 # Part of the traction in sliding by which its zero may move.
 _LARGEST_DRIFT = 0.5
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """What became of one run: its points, its rejected windows, and what was done to its record."""
+    """The outcome of one run.
+
+    Attributes
+    ----------
+    name : str
+    source : {"measured", "simulated"}
+    points : tuple of Point
+    rejected : tuple of Rejected
+    notes : tuple of str
+        What was changed in its record.
+    """
 
     name: str
     source: str
@@ -61,13 +69,20 @@ class Reduced:
 
 
 def reduce_files(paths: Iterable[str], settings: Settings) -> list[Reduced]:
-    """Reduce the files of some runs; see ``reduce_record``."""
+    """Reduce the files of some runs as ``reduce_record`` does.
+
+    Parameters
+    ----------
+    paths : iterable of str
+        Text files (CSV), one for each run.
+    settings : Settings
+    """
     drag = find_drag(settings)
     return [reduce_record(read_record(path, settings), settings, drag) for path in paths]
 
 
 def find_drag(settings: Settings) -> Drag:
-    """Return the drag of the bearings, as it is given, or out of the record of an unloaded pull."""
+    """Return the drag of the bearings as given, or from the record of an unloaded pull."""
     if settings.bearing.file and settings.traction == "rope":
         return measured_drag(read_record(settings.bearing.file, settings), settings)
     return given_drag(settings.bearing)
@@ -75,6 +90,13 @@ def find_drag(settings: Settings) -> Drag:
 
 def reduce_record(record: Record, settings: Settings, drag: Drag) -> Reduced:
     """Return the points of a run, and its rejected windows with the reasons.
+
+    Parameters
+    ----------
+    record : Record
+    settings : Settings
+    drag : Drag
+        Of the bearings; for a sensor in the rope.
 
     Raises
     ------
@@ -100,7 +122,7 @@ def reduce_record(record: Record, settings: Settings, drag: Drag) -> Reduced:
 
 
 def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Window]) -> tuple[Loaded, list[str]]:
-    """Return the forces tared and turned to the usual signs."""
+    """Return the forces, tared and with the usual signs."""
     notes = []
     normal, traction = record.normal - zero.normal, record.traction - zero.traction
     sliding = np.zeros(normal.size, dtype=bool)

@@ -57,7 +57,7 @@ class Sensors:
 
 @dataclass(frozen=True)
 class Ideal:
-    """What perfect sensors would record of a simulated run, and what is true of it.
+    """What perfect sensors would record of a simulated run, and its true motion.
 
     Attributes
     ----------
@@ -119,7 +119,19 @@ def ideal(sled: Sled, curve: FrictionCurve, motion: Motion, pressure: float, wei
 
 
 def recorded(run: Ideal, sensors: Sensors, rng: np.random.Generator) -> Real:
-    """Return what the sensors record of a run: time, normal force, traction, displacement; shape (4, samples)."""
+    """Return what the sensors record of a run.
+
+    Parameters
+    ----------
+    run : Ideal
+    sensors : Sensors
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    numpy.ndarray, shape (4, samples)
+        Time (s), normal force (N), traction (N), displacement (mm).
+    """
     drift = sensors.drift * run.time / run.time[-1]
     normal = run.normal + sensors.normal_offset + drift + _noise(run.time, sensors, rng)
     traction = run.traction + sensors.traction_offset + drift + _noise(run.time, sensors, rng)
@@ -138,7 +150,14 @@ def _noise(time: Real, sensors: Sensors, rng: np.random.Generator) -> Real:
 
 
 def as_record(name: str, values: Real) -> Record:
-    """Return a simulated record as the reduction takes it."""
+    """Return a simulated run as a record for the reduction.
+
+    Parameters
+    ----------
+    name : str
+    values : numpy.ndarray, shape (4, samples)
+        As ``recorded`` returns it.
+    """
     return ordered(name, SIMULATED, values)
 
 
@@ -151,7 +170,7 @@ def write_run(values: Real, path: str | Path, about: list[str]) -> None:
         As ``recorded`` returns it.
     path : path-like
     about : list of str
-        Lines to stand above the headings.
+        Lines above the headings.
     """
     table = pd.DataFrame(dict(zip(HEADINGS, values, strict=True)))
     with whole(path) as part, part.open("w", encoding="utf-8", newline="") as stream:

@@ -7,20 +7,32 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from rubfric import checks
-from rubfric.config.rigchoice import TRACTIONS
+from rubfric.config.models import VirtualRig
+from rubfric.config.overlay import read_yaml
 from rubfric.errors import InvalidInput
 from rubfric.rig.textfile import DECIMALS, SEPARATORS
 from rubfric.rig.units import QUANTITIES, check_factor
+from rubfric.rules import Choice, Integer, Number, rules
 
 _FORCES = ("normal", "traction")
+_AMOUNT, _SHARE = Number(low=0.0), Number(low=0.0, high=1.0, excluded=True)
+_WINDOWS = {"least_samples": Integer(low=20), "least_travel": Number(unit="mm")}
 
 
 @dataclass(frozen=True)
 class Tare:
-    """Readings of the unloaded sensors: found in the record (auto), at given times (s), given (N), or none."""
+    """Readings of the unloaded sensors.
+
+    Attributes
+    ----------
+    how : {"auto", "times", "given", "none"}
+        Found in the record, at given times, given, or none subtracted.
+    start, end : float
+        The given times, s.
+    normal, traction : float
+        The given readings, N.
+    """
 
     how: str = "auto"
     start: float = 0.0
@@ -31,9 +43,16 @@ class Tare:
 
 @dataclass(frozen=True)
 class Bearing:
-    """Drag of the sled's bearings: ``force`` (N) plus ``coefficient`` times the normal force, +- ``uncertainty`` (N).
+    """Drag of the sled's bearings: ``force`` plus ``coefficient`` times the normal force.
 
-    Where ``file`` names the record of an unloaded pull, the force, as it depends on speed, comes from there.
+    Attributes
+    ----------
+    force, uncertainty : float
+        N.
+    coefficient : float
+        Dimensionless.
+    file : str
+        Record of an unloaded pull, from which the force over speed is taken; empty for none.
     """
 
     force: float = 0.0
@@ -134,10 +153,7 @@ def read_settings(path: str | None, **above: Any) -> Settings:
     """
     entry: Any = {}
     if path is not None:
-        try:
-            entry = yaml.safe_load(Path(path).read_text(encoding="utf-8-sig")) or {}
-        except (yaml.YAMLError, ValueError, IsADirectoryError) as error:
-            raise InvalidInput(f"{path} is not valid YAML: {' '.join(str(error).split())}") from error
+        entry = read_yaml(path) or {}
     names = [one.name for one in fields(Settings)]
     where = path or "the settings of the rig"
     checks.known_keys(where, entry, names)
@@ -166,7 +182,7 @@ def _units(key: str, value: Any) -> dict[str, str]:
 
 def _tare(key: str, value: Any) -> Tare:
     if isinstance(value, str):
-        return Tare(checks.one_of(key, value, ("auto", "none")))
+        return Tare(Choice(words=("auto", "none")).check(key, value))
     checks.known_keys(key, value, ("from", "to", *_FORCES))
     if set(value) == {"from", "to"}:
         start, end = (checks.number(f"{key}.{name}", value[name]) for name in ("from", "to"))
@@ -181,7 +197,7 @@ def _tare(key: str, value: Any) -> Tare:
 
 def _bearing(key: str, value: Any) -> Bearing:
     checks.known_keys(key, value, [one.name for one in fields(Bearing)])
-    numbers = {name: checks.at_least(f"{key}.{name}", entry, 0.0) for name, entry in value.items() if name != "file"}
+    numbers = {name: _AMOUNT.check(f"{key}.{name}", entry) for name, entry in value.items() if name != "file"}
     file = value.get("file", "")
     if not isinstance(file, str):
         raise InvalidInput(f"{key}.file is {checks.shown(file)}, but must be the path of an unloaded pull")
@@ -192,40 +208,32 @@ def _bearing(key: str, value: Any) -> Bearing:
 
 def _forces(key: str, value: Any) -> dict[str, float]:
     checks.known_keys(key, value, _FORCES)
-    return {name: checks.at_least(f"{key}.{name}", number, 0.0) for name, number in value.items()}
+    return {name: _AMOUNT.check(f"{key}.{name}", number) for name, number in value.items()}
 
 
 def _gains(key: str, value: Any) -> dict[str, float]:
     checks.known_keys(key, value, (*_FORCES, "displacement"))
-    at = {name: f"{key}.{name}" for name in value}
-    return {name: checks.at_most(at[name], checks.at_least(at[name], value[name], 0.0), 1.0) for name in value}
+    return {name: Number(low=0.0, high=1.0).check(f"{key}.{name}", gain) for name, gain in value.items()}
 
 
 def _windows(key: str, value: Any) -> Windows:
     checks.known_keys(key, value, [one.name for one in fields(Windows)])
-    read: dict[str, Any] = {}
-    for name, number in value.items():
-        at = f"{key}.{name}"
-        if name == "least_samples":
-            read[name] = checks.whole(at, number, 20)
-        elif name == "least_travel":
-            read[name] = checks.positive(at, number, "mm")
-        else:
-            read[name] = checks.between(at, number, 0.0, 1.0)
-    return Windows(**read)
+    return Windows(
+        **{name: _WINDOWS.get(name, _SHARE).check(f"{key}.{name}", number) for name, number in value.items()}
+    )
 
 
 _READERS: dict[str, Any] = {
     "columns": _headings,
     "units": _units,
-    "area": lambda key, value: checks.positive(key, value, "mm²"),
-    "traction": lambda key, value: checks.one_of(key, value, TRACTIONS),
-    "sled_mass": lambda key, value: checks.positive(key, value, "kg"),
+    "area": rules(VirtualRig)["area"].check,
+    "traction": rules(VirtualRig)["traction"].check,
+    "sled_mass": rules(VirtualRig)["sled_mass"].check,
     "tare": _tare,
     "bearing": _bearing,
     "range": _forces,
     "calibration": _gains,
     "windows": _windows,
-    "separator": lambda key, value: checks.one_of(key, value, SEPARATORS),
-    "decimal": lambda key, value: checks.one_of(key, value, DECIMALS),
+    "separator": Choice(words=SEPARATORS).check,
+    "decimal": Choice(words=DECIMALS).check,
 }

@@ -14,9 +14,9 @@ from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.friction_map import FrictionCurve
 
 GRAVITY = 9806.65  # mm/s²
-# Relative accuracy of the motion, and points at which forces are looked at over the speeds.
+# Relative accuracy of the motion, and number of speeds at which forces are evaluated.
 _ACCURACY, _POINTS = 1e-7, 4001
-# A sweep is to reach its speed within this part of the travel, with a weight at least so many times the largest force.
+# A sweep reaches its speed within this part of the travel, under at least this multiple of the largest force.
 _REACH, _EXCESS = 0.8, 1.03
 
 
@@ -44,18 +44,34 @@ class Sled:
     bearing_damping: float = 0.0
 
     def drag(self, speed: Real | float, normal: float) -> Real | float:
-        """Return the drag of the bearings, N, at speeds (mm/s, positive) under a normal force (N)."""
+        """Return the drag of the bearings, N.
+
+        Parameters
+        ----------
+        speed : numpy.ndarray of any shape, or float
+            mm/s, positive.
+        normal : float
+            Normal force, N.
+        """
         return self.bearing_force + self.bearing_coefficient * normal + self.bearing_damping * speed
 
     def resistance(self, curve: FrictionCurve, pressure: float) -> Callable[[Real | float], Real]:
-        """Return what holds the sled back, N, as a function of its speed (mm/s): friction and bearings."""
+        """Return friction plus drag of the bearings, N, as a function of the speed (mm/s) of the sled.
+
+        Parameters
+        ----------
+        curve : FrictionCurve
+            Friction over speed at ``pressure``.
+        pressure : float
+            Nominal, MPa.
+        """
         normal = pressure * self.area
         return lambda speed: np.asarray(curve(speed) * normal + self.drag(speed, normal))
 
 
 @dataclass(frozen=True)
 class Motion:
-    """The sled from its release until it stops or leaves what is known.
+    """The sled from its release until it stops or exceeds the speeds of the friction curve.
 
     Attributes
     ----------
@@ -136,7 +152,15 @@ def slide(sled: Sled, curve: FrictionCurve, pressure: float, weight: float, most
 
 @dataclass(frozen=True)
 class Weight:
-    """A weight (kg) and whether the sled settles at the speed asked for, or passes through it."""
+    """A weight for a speed.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    settles : bool
+        Whether the sled settles at the speed, or passes through it.
+    """
 
     mass: float
     settles: bool

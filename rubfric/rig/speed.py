@@ -3,8 +3,8 @@
 A difference of neighbouring readings would multiply their noise and their steps by the sampling rate, and a filter in
 time would need one width for 0.1 and for 1000 mm/s. So the record is cut into cells of equal travel, and in each a
 straight line is fitted to the displacement by least squares: a local polynomial whose width follows the speed, that
-needs no even sampling, and whose error is known. It is robust because single wrong readings are taken out before, by a
-running median (``rubfric.rig.record``), which least squares alone would not bear.
+needs no even sampling, and whose error is known. It is robust because a running median (``rubfric.rig.record``) removes
+single wrong readings before, to which least squares alone would be sensitive.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What became of some runs, in words for the terminal."""
+"""The outcome of some runs in words, for the terminal."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _row(name: str, point: object) -> str:
 
 
 def _kind(reason: str) -> str:
-    """Return what a reason has in common with others: all but its numbers, which stand in the table."""
+    """Return what a reason has in common with others: all but its numbers, which the table has."""
     words = reason.split()
     return " ".join("..." if _starts_numeric(word) else word for word in words)
 

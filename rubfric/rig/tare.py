@@ -1,4 +1,4 @@
-"""What the sensors read without a load, and how well that is known."""
+"""Readings of the sensors without a load, and their standard errors."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from rubfric.rig.record import Record
 from rubfric.rig.settings import Tare
 
 _FEWEST = 20
-# Blocks in which the record is looked at, and what part of the load counts as loaded.
+# Blocks into which the record is divided, and the part of the load above which a block is loaded.
 _BLOCKS, _LOADED = 200, 0.1
-# An offset larger than this part of the load is none: the record begins under load.
+# Above this part of the load an offset is none: the record begins under load.
 _LARGEST_OFFSET = 0.25
-# The load must exceed the noise so many times.
+# Least ratio of the load to the noise.
 _RISE = 10.0
-# Of an unloaded stretch, what lies next to the load is left out.
+# Share of an unloaded stretch, next to the load, that is left out.
 _GUARD = 0.2
 
 
@@ -56,7 +56,7 @@ def find_zero(record: Record, tare: Tare, loading: str = "normal") -> Zero:
         ``auto`` takes the means over the stretch before the load, and where there is one after it too, the straight
         line between both.
     loading : {"normal", "traction"}
-        Which force tells what is loaded.
+        The force by which the unloaded stretches are found.
 
     Raises
     ------

@@ -19,10 +19,10 @@ from rubfric.rig.units import is_unit
 
 SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "space": None}
 DECIMALS = {"point": ".", "comma": ","}
-# Lines that may stand before the headings, and rows that have to look like numbers below them.
+# Most lines before the headings, and rows below them that must look like numbers.
 _LONGEST_PREAMBLE, _ROWS_TO_LOOK_AT = 300, 3
 _FEWEST_COLUMNS = 4
-# Lines below the headings that are enough to know them: a line of units, and the rows to look at with empty ones.
+# Lines below the headings by which they are recognised: a line of units, and rows of numbers with empty ones.
 _LOOKED_AT = 2 + 2 * _ROWS_TO_LOOK_AT
 # Share of rows that may be unreadable.
 _MOST_UNREADABLE = 0.05
@@ -44,7 +44,7 @@ class TextTable:
     values : numpy.ndarray, shape (rows, columns)
         NaN where a value is missing, infinite where the logger wrote that its input was overloaded.
     notes : tuple of str
-        What was passed over.
+        What was left out.
     clocks : tuple of int
         Columns that held times as a clock shows them; they are in s.
     """
@@ -75,7 +75,7 @@ def read_text(path: str, separator: str | None = None, decimal: str | None = Non
     FileNotFoundError
         For a missing file.
     """
-    lines = _decoded(path).splitlines()
+    lines = _decoded(path).replace("\N{MINUS SIGN}", "-").splitlines()
     kinds = [separator] if separator else list(SEPARATORS)
     for kind in kinds:
         start = _headings(_split(lines[: _LONGEST_PREAMBLE + _LOOKED_AT], SEPARATORS[kind]))
@@ -116,7 +116,7 @@ def _split(lines: Sequence[str], separator: str | None) -> list[list[str]]:
     """Return the fields of each line."""
     if separator is None:
         return [line.split() for line in lines]
-    rows = list(csv.reader(lines, delimiter=separator))
+    rows = list(csv.reader(lines, delimiter=separator, skipinitialspace=True))
     # A quotation mark that is never closed would swallow lines: then they are split as they are.
     return rows if len(rows) == len(lines) else [line.split(separator) for line in lines]
 
@@ -148,24 +148,18 @@ def _looks_numeric(word: str) -> bool:
 def _numbers(
     path: str, rows: Sequence[Sequence[str]], headings: Sequence[str], decimal: str | None, before: int
 ) -> tuple[Real, tuple[str, ...], tuple[int, ...]]:
-    """Return the values of all rows, notes on rows that were passed over, and which columns are clocks."""
+    """Return the values of all rows, notes on rows that were left out, and which columns are clocks."""
     filled = [(line, row) for line, row in enumerate(rows, before + 1) if any(word.strip() for word in row)]
     mark = DECIMALS[decimal] if decimal else _decimal(path, [word for _, row in filled for word in row])
     count = len(headings)
-    whole = [row for _, row in filled if len(row) == count]
-    table = [[_number(word, mark) for word in row] for row in whole]
-    # A column without a single number holds words, such as dates or states, or the times of a clock.
-    wordy = [place for place in range(count) if all(row[place] is None for row in table)]
-    clocks = [place for place in wordy if sum(looks_like_clock(row[place]) for row in whole) > len(whole) // 2]
-    for place in wordy:
-        times = None
-        if place in clocks:
-            times = clock_times(f"{path}, column {headings[place]!r},", [row[place] for row in whole])
-        for number, values_of in enumerate(table):
-            values_of[place] = math.nan if times is None else float(times[number])
-    found = iter(table)
-    read = [(line, row, next(found) if len(row) == count else [None]) for line, row in filled]
-    bad = [(line, row) for line, row, numbers in read if None in numbers]
+    whole = [(line, row) for line, row in filled if len(row) == count]
+    columns, clocks = [], []
+    for place, heading in enumerate(headings):
+        numbers, is_clock = _column(f"{path}, column {heading!r},", [row[place] for _, row in whole], mark)
+        columns.append(numbers)
+        clocks += [place] if is_clock else []
+    read = {line: numbers for (line, _), *numbers in zip(whole, *columns, strict=True) if None not in numbers}
+    bad = [(line, row) for line, row in filled if line not in read]
     if len(bad) > _MOST_UNREADABLE * len(filled) + 1:
         line, row = bad[0]
         shown = "; ".join(row)[:60]
@@ -173,8 +167,20 @@ def _numbers(
             f"{path} has {len(bad)} unreadable rows of {len(filled)}, the first of them line {line}: {shown!r}"
         )
     notes = (f"{len(bad)} unreadable rows left out, the first of them line {bad[0][0]}",) if bad else ()
-    values = np.array([numbers for _, _, numbers in read if None not in numbers], dtype=np.float64)
-    return values.reshape(-1, count), notes, tuple(clocks)
+    return np.array(list(read.values()), dtype=np.float64).reshape(-1, count), notes, tuple(clocks)
+
+
+def _column(where: str, words: Sequence[str], mark: str) -> tuple[list[float | None], bool]:
+    """Return the numbers of a column, None where a word is none, and whether they are the times of a clock, in s.
+
+    A column without a single number holds words, such as dates or states, which count as missing.
+    """
+    numbers = [_number(word, mark) for word in words]
+    if any(number is not None for number in numbers):
+        return numbers, False
+    if sum(map(looks_like_clock, words)) > len(words) // 2:
+        return list(clock_times(where, words)), True
+    return [math.nan] * len(words), False
 
 
 def _decimal(path: str, words: Sequence[str]) -> str:
@@ -186,7 +192,7 @@ def _decimal(path: str, words: Sequence[str]) -> str:
     if points or any(word.count(",") > 1 for word in commas):
         raise InvalidInput(
             f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
-            "thousands, or say in the YAML file of --columns which one is the decimal"
+            "thousands, or say in the YAML file of --columns which one is the decimal mark"
         )
     if all(re.match(r"^[+-]?[1-9]\d{0,2},\d{3}$", word) for word in commas):
         raise InvalidInput(
@@ -208,5 +214,5 @@ def _number(word: str, mark: str) -> float | None:
         plain = plain.replace(other, "")
     try:
         return float(plain.replace(mark, "."))
-    except ValueError:  # a mark that stands twice
+    except ValueError:  # a mark that occurs twice
         return None

@@ -7,9 +7,12 @@ import re
 from rubfric.errors import InvalidInput
 
 QUANTITIES = ("time", "normal", "traction", "displacement")
-_TIME = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
-_FORCE = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "daN": 10.0, "kgf": 9.80665, "kp": 9.80665, "lbf": 4.4482216152605}
+_TIME = {"s": 1.0, "sec": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "us": 1e-6}
+_TIME |= {"min": 60.0, "h": 3600.0}
+_FORCE = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "daN": 10.0, "newton": 1.0, "newtons": 1.0}
+_FORCE |= {"kgf": 9.80665, "kp": 9.80665, "gf": 9.80665e-3, "lbf": 4.4482216152605}
 _LENGTH = {"mm": 1.0, "m": 1e3, "dm": 100.0, "cm": 10.0, "um": 1e-3, "nm": 1e-6, "in": 25.4, "inch": 25.4}
+_LENGTH |= {"millimeter": 1.0, "millimeters": 1.0}
 _KNOWN = {"time": _TIME, "normal": _FORCE, "traction": _FORCE, "displacement": _LENGTH}
 # Capitals change the meaning of these alone: MN is no mN.
 _STRICT = ("mn",)
@@ -36,7 +39,21 @@ def factor(quantity: str, unit: str) -> float | None:
 
 
 def check_factor(key: str, quantity: str, unit: object) -> float:
-    """Return the factor of a unit, or raise InvalidInput naming ``key``."""
+    """Return what a number in a unit has to be multiplied by to be in s, N or mm.
+
+    Parameters
+    ----------
+    key : str
+        Where the unit was given, for the message.
+    quantity : {"time", "normal", "traction", "displacement"}
+    unit : object
+        Whatever was given there.
+
+    Raises
+    ------
+    InvalidInput
+        For anything but a known unit of the quantity; names ``key`` and the known units.
+    """
     found = factor(quantity, unit) if isinstance(unit, str) else None
     if found is None:
         raise InvalidInput(f"{key} is {unit!r}, but must be one of {', '.join(_KNOWN[quantity])}")

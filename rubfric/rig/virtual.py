@@ -1,15 +1,14 @@
-"""The virtual rig: runs under weights that the program chooses, so that they span what was simulated."""
+"""The virtual rig: runs under weights chosen so that they span the simulated speeds and pressures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from rubfric import checks
-from rubfric.config.rigchoice import VirtualRig
+from rubfric.config.models import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.bearing import Drag
@@ -19,8 +18,9 @@ from rubfric.rig.reduction import Reduced, reduce_record
 from rubfric.rig.sensors import Ideal, Sensors, as_record, ideal, recorded, write_run
 from rubfric.rig.settings import Bearing, Settings
 from rubfric.rig.sled import Sled, choose_weight, slide
+from rubfric.rules import Number
 
-# A run that settles lasts for so many s, and slides so many mm, at least.
+# Least duration, s, and least travel, mm, of a run that settles.
 _LASTS, _SLIDES = 2.0, 3.0
 # No run takes longer, s.
 _LONGEST = 1000.0
@@ -28,7 +28,19 @@ _LONGEST = 1000.0
 
 @dataclass(frozen=True)
 class Run:
-    """A run to make: nominal pressure (MPa), weight (kg), and the slowest speed (mm/s) that it is made for."""
+    """A run to simulate.
+
+    Attributes
+    ----------
+    pressure : float
+        Nominal, MPa.
+    weight : float
+        On the rope, kg.
+    speed : float
+        The slowest speed that it is for, mm/s.
+    settles : bool
+        Whether the sled settles at that speed.
+    """
 
     pressure: float
     weight: float
@@ -85,7 +97,15 @@ def _outside(friction: FrictionMap, speed: float, pressure: float) -> str:
 
 
 def make(run: Run, friction: FrictionMap, sled: Sled, sensors: Sensors) -> Ideal:
-    """Return a run as perfect sensors would record it."""
+    """Return a run as perfect sensors would record it.
+
+    Parameters
+    ----------
+    run : Run
+    friction : FrictionMap
+    sled : Sled
+    sensors : Sensors
+    """
     curve = friction.at(run.pressure)
     distance = min(sled.travel, max(_SLIDES, _LASTS * run.speed)) if run.settles else sled.travel
     motion = slide(sled, curve, run.pressure, run.weight, _LONGEST, distance)
@@ -93,7 +113,7 @@ def make(run: Run, friction: FrictionMap, sled: Sled, sensors: Sensors) -> Ideal
 
 
 def measure(runs: Iterable[Run], friction: FrictionMap, sled: Sled, sensors: Sensors, seed: int) -> Iterator[Reduced]:
-    """Make some runs and reduce them as measured ones are; each has random numbers of its own.
+    """Simulate some runs and reduce them as measured ones; each has its own random numbers.
 
     Parameters
     ----------
@@ -116,7 +136,13 @@ def measure(runs: Iterable[Run], friction: FrictionMap, sled: Sled, sensors: Sen
 
 
 def settings_of(sled: Sled, sensors: Sensors) -> Settings:
-    """Return what a user of the virtual rig would write in the YAML file of ``--columns``."""
+    """Return the settings by which runs of the virtual rig are reduced.
+
+    Parameters
+    ----------
+    sled : Sled
+    sensors : Sensors
+    """
     bearing = Bearing(sled.bearing_force, sled.bearing_coefficient) if sensors.traction == "rope" else Bearing()
     return Settings(area=sled.area, traction=sensors.traction, sled_mass=sled.mass, bearing=bearing)
 
@@ -135,9 +161,15 @@ def parts_of(rig: VirtualRig) -> tuple[Sled, Sensors]:
 
 
 def targets(friction: FrictionMap, pressures: Iterable[float], speeds: Iterable[float]) -> set[tuple[float, float]]:
-    """Return speeds (mm/s) and pressures (MPa) to measure at.
+    """Return the speeds (mm/s) and pressures (MPa) at which to measure.
 
-    The given pressures at the speeds simulated and half way between them, and the given speeds likewise.
+    Parameters
+    ----------
+    friction : FrictionMap
+    pressures : iterable of float
+        MPa; each at the simulated speeds and half-way between them.
+    speeds : iterable of float
+        mm/s; each at the simulated pressures and half-way between them.
     """
     along_speed, along_pressure = between(friction.speeds), between(friction.pressures)
     found = {(speed, pressure) for pressure in pressures for speed in (*along_speed, *speeds)}
@@ -153,7 +185,7 @@ def between(values: np.ndarray) -> tuple[float, ...]:
 def simulate(
     friction: FrictionMap, rig: VirtualRig, pressure: float, weight: float | None, speed: float | None, path: Path
 ) -> str:
-    """Simulate one run, write what the sensors record, and say how it went.
+    """Simulate one run, write what the sensors record, and return a summary in words.
 
     Parameters
     ----------
@@ -172,21 +204,21 @@ def simulate(
         For a pressure or a speed outside of what was simulated, or a weight that does not move the sled.
     """
     sled, sensors = parts_of(rig)
-    curve = friction.at(checks.positive("pressure", pressure, "MPa"))
+    curve = friction.at(Number(unit="MPa").check("pressure", pressure))
     if weight is None:
-        wanted = checks.positive("speed", speed, "mm/s")
+        wanted = Number(unit="mm/s").check("speed", speed)
         reason = _outside(friction, wanted, pressure)
         found = reason or choose_weight(sled, curve, pressure, wanted, rig.heaviest_weight)
         if isinstance(found, str):
             raise InvalidInput(f"speed is {wanted:g} mm/s, but that is {found}")
         run = Run(pressure, found.mass, wanted, found.settles)
     else:
-        run = Run(pressure, checks.positive("weight", weight, "kg"), float(friction.speeds[-1]), False)
+        run = Run(pressure, Number(unit="kg").check("weight", weight), float(friction.speeds[-1]), False)
     made = make(run, friction, sled, sensors)
     fastest = float(made.speed(made.release + np.linspace(0.0, made.motion.duration, 1001)).max())
     about = [
         f"{run.pressure:g} MPa, weight {run.weight:.6g} kg, seed {rig.seed}",
-        *(f"{field.name}: {getattr(rig, field.name)}" for field in fields(rig) if field.name != "seed"),
+        *(f"{name}: {value}" for name, value in rig if name != "seed"),
     ]
     write_run(recorded(made, sensors, np.random.default_rng(rig.seed)), path, about)
     return (

@@ -12,17 +12,24 @@ from rubfric.rig.settings import Windows
 from rubfric.rig.speed import Cells
 
 STEADY, SWEEP = "steady", "sweep"
-# What a plateau takes of the run's travel or time, at least; anything shorter is a piece of a sweep.
+# Least share of the run's travel or time in a plateau; anything shorter is part of a sweep.
 _PLATEAU = 0.15
-# So many robust standard deviations are noise of the speeds.
+# Robust standard deviations within which a speed is noise.
 _NOISE = 2.5
-# The largest and the smallest of some hundred noisy speeds differ by about so many standard errors.
+# Standard errors by which the largest and the smallest of some hundred noisy speeds differ.
 _SCATTER = 5.0
 
 
 @dataclass(frozen=True)
 class Window:
-    """Samples ``start`` to ``end - 1`` of a record, in which the speed is steady or part of a sweep."""
+    """Samples ``start`` to ``end - 1`` of a record.
+
+    Attributes
+    ----------
+    start, end : int
+    kind : {"steady", "sweep"}
+        Whether the speed is steady, or part of a sweep.
+    """
 
     start: int
     end: int
@@ -34,6 +41,13 @@ def find_windows(record: Record, cells: Cells, limits: Windows) -> list[Window]:
 
     First the longest stretches whose speed stays within ``steady_range``, as long as they are a good part of the run.
     What is left, where the sled gains or loses speed, is cut into pieces within ``sweep_range``.
+
+    Parameters
+    ----------
+    record : Record
+    cells : Cells
+        Of the record, with their speeds.
+    limits : Windows
     """
     found: list[Window] = []
     for first, last in _slides(cells, record):
@@ -64,7 +78,7 @@ def _slides(cells: Cells, record: Record) -> list[tuple[int, int]]:
 def _plateaus(
     record: Record, cells: Cells, run: tuple[int, int], limits: Windows, least: tuple[float, float]
 ) -> list[Window]:
-    """Return the longest plateau of a run of cells and what its both sides hold, or the pieces of a sweep."""
+    """Return the longest plateau of a run of cells and the windows on both sides of it, or the pieces of a sweep."""
     first, last = run
     if last <= first:
         return []
@@ -85,7 +99,7 @@ def _plateaus(
 
 
 def _settled(speeds: Real, pair: tuple[int, int]) -> tuple[int, int]:
-    """Return a plateau without what at its ends is no noise of its speeds: where the sled still gains its speed."""
+    """Return a plateau without its ends where speeds exceed the noise: where the sled still accelerates."""
     part = speeds[pair[0] : pair[1]]
     away = np.abs(part - np.median(part))
     near = np.flatnonzero(away <= _NOISE * 1.4826 * np.median(away))

@@ -4,35 +4,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rubfric import checks
 from rubfric.arrays import Real
-from rubfric.errors import InvalidInput
+from rubfric.rules import Number, check_fields
 
 
 @dataclass(frozen=True)
 class SineScale:
-    """One harmonic of a road.
+    """One harmonic of a road: meaning, unit and bounds of each field are written beside it.
 
-    Parameters
-    ----------
-    amplitude : float
-        Peak-to-mean height a, mm; zero is a flat road.
-    wavenumber : float
-        Wavenumber k, 1/mm, positive.
+    Raises
+    ------
+    InvalidInput
+        For any value outside these bounds.
     """
 
-    amplitude: float
-    wavenumber: float
+    amplitude: Annotated[float, Number("Peak-to-mean height a; zero is a flat road.", "mm", low=0.0)]
+    wavenumber: Annotated[float, Number("Wavenumber k.", "1/mm")]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "amplitude", checks.at_least("amplitude of the road", self.amplitude, 0.0, "mm"))
-        checks.at_most("amplitude of the road", self.amplitude, checks.LARGEST, "mm")
-        object.__setattr__(self, "wavenumber", checks.positive("wavenumber of the road", self.wavenumber, "1/mm"))
+        check_fields(self, "road.")
 
     @property
     def wavelength(self) -> float:
@@ -55,17 +50,3 @@ class SineScale:
     def excitation_frequency(self, velocity: float) -> float:
         """Return k v, rad/s: the frequency that the rubber feels when it slides at ``velocity`` mm/s."""
         return self.wavenumber * velocity
-
-
-def scales_from_config(name: str, entry: Any) -> tuple[SineScale, ...]:
-    """Read one entry of ``roads``, a list of scales from coarse to fine; InvalidInput names what is wrong."""
-    if not isinstance(entry, (list, tuple)) or not entry:
-        raise InvalidInput(f"roads.{name} is {checks.shown(entry)}, but must be a list of at least one scale")
-    scales = []
-    for index, scale in enumerate(entry):
-        at = f"roads.{name}[{index}]"
-        checks.known_keys(at, scale, ("amplitude", "wavenumber"), ("amplitude", "wavenumber"))
-        amplitude = checks.at_least(f"{at}.amplitude", scale["amplitude"], 0.0, "mm")
-        wavenumber = checks.positive(f"{at}.wavenumber", scale["wavenumber"], "1/mm")
-        scales.append(SineScale(amplitude, wavenumber))
-    return tuple(scales)

@@ -9,9 +9,9 @@ The bulk modulus is elastic (k_i = 0 of Table 1) or relaxes in proportion, at co
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,34 +19,22 @@ from numpy.typing import ArrayLike
 from rubfric import checks
 from rubfric.arrays import Complex, Real
 from rubfric.errors import InvalidInput
+from rubfric.rules import Choice, Items, Number, Word, check_fields
 
 MODULI = ("long_term", "instantaneous")
 BULK = ("elastic", "proportional")
 PLANES = ("stress", "strain")
 
 
+def _branches(about: str, unit: str = "") -> Items:
+    return Items(about, Number(unit=unit), least=0, distinct=False, ascending=False)
+
+
 @dataclass(frozen=True)
 class Material:
-    """A rubber: elastic constants, Prony branches, and how to read them.
+    """A linear viscoelastic rubber, a spring and any number of Maxwell elements.
 
-    Parameters
-    ----------
-    name : str
-        Name of the rubber, as it stands in paths.
-    youngs_modulus : float
-        Young's modulus E, MPa; long-term or instantaneous as ``moduli`` says.
-    poissons_ratio : float
-        Poisson's ratio that goes with E, between -1 and 0.5.
-    shear_fractions : tuple of float
-        g_i, the branches' shares of the instantaneous shear modulus; none is legal. Sum below 1.
-    relaxation_times : tuple of float
-        tau_i, s, as many as there are fractions.
-    moduli : {"long_term", "instantaneous"}
-        Which modulus E is.
-    bulk : {"elastic", "proportional"}
-        Whether the bulk modulus is constant or relaxes as the shear modulus does.
-    density : float
-        Mass density, t/mm³; used only to report sliding speed over shear-wave speed.
+    Meaning, unit and bounds of each field are written beside it.
 
     Raises
     ------
@@ -54,40 +42,45 @@ class Material:
         For any value outside these bounds.
     """
 
-    name: str
-    youngs_modulus: float
-    poissons_ratio: float
-    shear_fractions: tuple[float, ...]
-    relaxation_times: tuple[float, ...]
-    moduli: str = "long_term"
-    bulk: str = "elastic"
-    density: float = 1.1e-9
+    name: Annotated[str, Word("Name of the rubber, which is part of paths.")]
+    youngs_modulus: Annotated[float, Number("Young's modulus E; long-term or instantaneous as moduli says.", "MPa")]
+    poissons_ratio: Annotated[
+        float, Number("Poisson's ratio that goes with Young's modulus.", low=-1.0, high=0.5, excluded=True)
+    ]
+    shear_fractions: Annotated[
+        tuple[float, ...],
+        _branches(
+            "Shares g_i of the instantaneous shear modulus that relax, one for each Maxwell element; their sum is "
+            "below 1."
+        ),
+    ]
+    relaxation_times: Annotated[
+        tuple[float, ...], _branches("Relaxation times tau_i, one for each Maxwell element.", "s")
+    ]
+    moduli: Annotated[str, Choice("Which modulus youngs_modulus is.", MODULI)] = "long_term"
+    bulk: Annotated[
+        str,
+        Choice(
+            "Whether the bulk modulus is constant (elastic) or relaxes as the shear modulus does (proportional).", BULK
+        ),
+    ] = "elastic"
+    density: Annotated[
+        float, Number("Mass density; it only serves to compare the speed with that of shear waves.", "t/mm³")
+    ] = 1.1e-9
 
     def __post_init__(self) -> None:
-        at = f"rubbers.{checks.text('name of the rubber', self.name)}."
-        put = object.__setattr__
-        put(self, "youngs_modulus", checks.positive(at + "youngs_modulus", self.youngs_modulus, "MPa"))
-        put(self, "poissons_ratio", checks.between(at + "poissons_ratio", self.poissons_ratio, -1.0, 0.5))
-        put(self, "shear_fractions", _positive_list(at + "shear_fractions", self.shear_fractions))
-        put(self, "relaxation_times", _positive_list(at + "relaxation_times", self.relaxation_times, "s"))
-        checks.one_of(at + "moduli", self.moduli, MODULI)
-        checks.one_of(at + "bulk", self.bulk, BULK)
-        put(self, "density", checks.positive(at + "density", self.density, "t/mm³"))
-        if len(self.shear_fractions) != len(self.relaxation_times):
+        at = f"rubbers.{Word().check('name of the rubber', self.name)}."
+        check_fields(self, at)
+        fractions, times = self.shear_fractions, self.relaxation_times
+        if len(fractions) != len(times):
             raise InvalidInput(
-                f"{at}relaxation_times has {len(self.relaxation_times)} numbers, but must have as many "
-                f"as shear_fractions, {len(self.shear_fractions)}"
+                f"{at}relaxation_times has {len(times)} numbers, but must have as many as shear_fractions, "
+                f"{len(fractions)}"
             )
-        if sum(self.shear_fractions) >= 1.0:
-            raise InvalidInput(f"{at}shear_fractions add up to {sum(self.shear_fractions):g}, but must stay below 1")
-
-    @classmethod
-    def from_config(cls, name: str, entry: Any) -> Material:
-        """Read one entry of ``rubbers`` from a config; InvalidInput names what is wrong."""
-        required = ("youngs_modulus", "poissons_ratio", "shear_fractions", "relaxation_times")
-        keys = (*required, "moduli", "bulk", "density")
-        given: Mapping[str, Any] = checks.known_keys(f"rubbers.{name}", entry, keys, required)
-        return cls(name=name, **given)
+        # In canonical digits: in floating point ten shares of 0.1 add up to less than 1.
+        total = checks.number(f"{at}shear_fractions", math.fsum(fractions))
+        if total >= 1.0:
+            raise InvalidInput(f"{at}shear_fractions add up to {total:g}, but must stay below 1")
 
     @property
     def long_term_fraction(self) -> float:
@@ -200,12 +193,6 @@ class Material:
     def shear_wave_speed(self, frequency: ArrayLike) -> Real:
         """Return the speed of shear waves, mm/s, with the stiffness |G*| at a frequency in rad/s."""
         return np.sqrt(np.abs(self.complex_shear_modulus(frequency)) / self.density)
-
-
-def _positive_list(key: str, values: Any, unit: str = "") -> tuple[float, ...]:
-    if not isinstance(values, (list, tuple)):
-        raise InvalidInput(f"{key} is {checks.shown(values)}, but must be a list of numbers")
-    return tuple(checks.positive(f"{key}[{index}]", value, unit) for index, value in enumerate(values))
 
 
 def _decay(relaxation_times: tuple[float, ...], time: ArrayLike) -> Real:

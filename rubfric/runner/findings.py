@@ -1,4 +1,4 @@
-"""What the tables of a campaign say at a glance: the largest friction, the largest error, and how many warnings."""
+"""Headlines of the tables of a campaign: largest friction, largest error, number of warnings, verdicts."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from collections.abc import Iterable
 
 
 def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
-    """Return one sentence each on errors and warnings.
+    """Return a sentence on the largest error and one on warnings; none without scenes.
 
     Parameters
     ----------
     tables : iterable of path-like
-        Tables of single scales, as from ``results.tables.scale_table``; those that are missing count for nothing.
+        Tables of single scales, as from ``results.tables.scale_table``; missing ones are skipped.
     """
     scenes, warned, worst, where = 0, 0, -1.0, ""
     for path in tables:
@@ -25,15 +25,15 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
                 worst, where = error / abs(friction), _place(path, row)
     if not scenes:
         return []
-    told = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
+    carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
         *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
-        told if warned else f"none of {scenes} scenes carries a warning",
+        carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 
 
 def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
-    """Return the rows of a table in which these columns say something; none where it is missing or lacks them."""
+    """Return the rows of a table in which none of these columns is empty; no row where it is missing or lacks them."""
     try:
         with open(path, encoding="utf-8", newline="") as stream:
             return [row for row in csv.DictReader(stream) if all(row.get(column) for column in columns)]
@@ -48,7 +48,7 @@ def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
 
 
 def highest(path: str | os.PathLike[str]) -> str:
-    """Return in words where the table of all scales has its largest friction; empty where it is missing."""
+    """Return in words the largest friction in the table of all scales and where it is; empty for a missing table."""
     rows = _rows(path, "friction_total")
     if not rows:
         return ""
@@ -61,9 +61,9 @@ def highest(path: str | os.PathLike[str]) -> str:
 
 
 def verdicts(path: str | os.PathLike[str]) -> str:
-    """Return in words how many of the paper's claims hold, from their table; empty where it is missing."""
+    """Return in words how many of the paper's claims hold, from their table; empty for a missing table."""
     rows = _rows(path, "verdict")
-    # The campaign itself stands first; its verdicts over all pressures are the claims'.
+    # The campaign itself comes first; its verdicts over all pressures are those of the claims.
     found = [row["verdict"] for row in rows if (row["reading"], row["pressure_MPa"]) == (rows[0]["reading"], "all")]
     counts = {word: found.count(word) for word in dict.fromkeys(sorted(found))}
     return "; ".join(f"{word}: {count} of {len(found)}" for word, count in counts.items())

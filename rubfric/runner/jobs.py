@@ -1,8 +1,8 @@
-"""Workflow jobs in worker processes, forked from a server that has everything imported already.
+"""Workflow jobs in worker processes, forked from a server that has imported everything they need.
 
 Importing the scientific stack takes longer than a scene. A fork server imports it once, when the workflow starts;
-workers are forks of it, as many as jobs run at a time. A crash, a kill or an exception fails its own job and costs
-one worker; the next job gets a fresh one.
+workers are forks of it, as many as there are jobs at a time. A crash, a kill or an exception fails its own job and
+costs one worker; the next job gets a new one.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _SECONDS: dict[str, float] = {}
 
 
 class JobFailed(RubfricError, RuntimeError):
-    """A job that ended without its result; the message holds its reason and its log."""
+    """A job that ended without its result; the message gives the reason and the path of the log."""
 
 
 def warm_up() -> None:
@@ -82,12 +82,12 @@ def run(script: str, log: str, **arguments: Any) -> None:
 
 
 def seconds(log: str) -> float | None:
-    """Return how long the job with this log took here, s, without any wait for its process; None for no such job."""
+    """Return how long the job with this log took, s, without the wait for its process; None for an unknown job."""
     return _SECONDS.get(log)
 
 
 def _begin(job: tuple[str, str, dict[str, Any]]) -> Connection:
-    """Give a job to a worker and return the line to it, once it has begun; workers that died idle are passed over."""
+    """Send a job to a worker and return the connection to it once the job has begun; skip workers that died idle."""
     while True:
         worker, fresh = _hire()
         try:
@@ -102,22 +102,22 @@ def _begin(job: tuple[str, str, dict[str, Any]]) -> Connection:
 
 
 def _hire() -> tuple[Connection, bool]:
-    """Return the line to an idle worker or to a new one, and whether it is new."""
+    """Return the connection to an idle worker or to a new one, and whether it is new."""
     warm_up()
     with _LOCK:
         if _IDLE:
             return _IDLE.pop(), False
         context = multiprocessing.get_context("forkserver")
         ours, theirs = context.Pipe()
-        with _nameless_main():
+        with _hidden_main():
             context.Process(target=_serve, args=(theirs,), daemon=True).start()
     theirs.close()
     return ours, True
 
 
 @contextlib.contextmanager
-def _nameless_main() -> Iterator[None]:
-    """Hide the main module: a new process would import it again, here all of Snakemake, and needs none of it."""
+def _hidden_main() -> Iterator[None]:
+    """Hide the main module, here all of Snakemake: a new process would import it again without need."""
     main = sys.modules["__main__"]
     sys.modules["__main__"] = types.ModuleType("__main__")
     try:
@@ -126,27 +126,29 @@ def _nameless_main() -> Iterator[None]:
         sys.modules["__main__"] = main
 
 
-def _serve(line: Connection) -> None:
-    """Do the jobs that come in, one by one, until the caller hangs up."""
+def _serve(connection: Connection) -> None:
+    """Run the jobs that arrive, one by one, until the caller closes the connection."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)  # a log keeps its order, and what a killed job had to say
+        sys.stdout.reconfigure(
+            line_buffering=True
+        )  # keeps the order of the log, and the output of a job that is killed
     with contextlib.suppress(EOFError):
         while True:
-            script, log, arguments = line.recv()
-            line.send("begun")
-            line.send(_work(script, log, arguments))
+            script, log, arguments = connection.recv()
+            connection.send("begun")
+            connection.send(_work(script, log, arguments))
 
 
 def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
-    """Do one job with all output in its log; return the reason why it failed, or None."""
+    """Run one job with all output in its log; return the reason why it failed, or None."""
     try:
         _redirect(log)
         main: Callable[..., None] = runpy.run_path(script)["main"]
         main(**arguments)
         sys.stdout.flush()
     except Exception as error:
-        with contextlib.suppress(OSError):  # a disk that is full has no room for this
+        with contextlib.suppress(OSError):  # on a full disk
             traceback.print_exc()
         place = getattr(error, "filename", None) or log
         known = why_not(place, error) if isinstance(error, OSError) else error
@@ -159,7 +161,7 @@ def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
 
 
 def _redirect(log: str) -> None:
-    """Send all that this process prints to a file."""
+    """Send all output of this process to a file."""
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w", encoding="utf-8") as stream:
         for descriptor in (1, 2):

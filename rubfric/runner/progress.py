@@ -1,4 +1,4 @@
-"""How far a run of the workflow is: what is done, what remains, how long that may take, and what was slow or failed."""
+"""Progress of a run of the workflow: what is done, what remains, how long that may take, what was slow or failed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-# Kinds of jobs in the words of the reader, one and several, in the order in which they are told.
+# Kinds of jobs as the log names them, singular and plural, in the order of the log.
 _WORDS = {
     "scene": ("scene", "scenes"),
     "march": ("march", "marches"),
@@ -17,15 +17,15 @@ _WORDS = {
     "figure": ("figure", "figures"),
     "other": ("other job", "other jobs"),
 }
-# Kinds whose jobs are worth a name where they are slow, and a line of their own where the last of them is done.
+# Kinds whose slow jobs are named, and whose last job gets a line in the log.
 _LONG = ("scene", "march")
-# An estimate of the time left rests on so many finished jobs of every rule that has a good share of the jobs.
+# The time left is estimated from so many finished jobs, and of each rule with more than this share of all jobs.
 _FEWEST, _SHARE = 3, 0.1
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A job without its result: what it was, and the files that say why."""
+    """A job without its result: its name, and the logs with the reason."""
 
     name: str
     logs: tuple[str, ...]
@@ -68,7 +68,17 @@ class Progress:
         self._failures: dict[int, Failure] = {}
 
     def start(self, job: int, rule: str, name: str, logs: Collection[str] = ()) -> None:
-        """Note that a job has begun, perhaps for another time."""
+        """Note that a job has begun, for the first time or again.
+
+        Parameters
+        ----------
+        job : int
+            Its number in this run.
+        rule, name : str
+            The rule, and what the log calls the job.
+        logs : collection of str
+            Paths of its logs.
+        """
         self._failures.pop(job, None)
         self._running[job] = _Job(rule, name, tuple(logs), self._clock())
         self._most_at_once = max(self._most_at_once, len(self._running))
@@ -76,7 +86,12 @@ class Progress:
     def finish(self, job: int, seconds: float | None = None) -> bool:
         """Note that a job has its result; return whether it was the last of the scenes, or of the marches.
 
-        ``seconds`` is how long it took where that is known better than from when it was noted.
+        Parameters
+        ----------
+        job : int
+            Its number in this run.
+        seconds : float, optional
+            How long it took, s; by default the time since its start was noted.
         """
         done = self._running.pop(job, None)
         if done is None:
@@ -91,7 +106,15 @@ class Progress:
         return self._count(what) == self._count(what, self._planned)
 
     def fail(self, job: int, logs: Collection[str] = ()) -> Failure | None:
-        """Note that a job has failed, and return what failed; nothing where that is known already."""
+        """Note that a job has failed, and return the failure; None where it is known already.
+
+        Parameters
+        ----------
+        job : int
+            Its number in this run.
+        logs : collection of str
+            Paths of further logs.
+        """
         failed = self._running.pop(job, None)
         if failed is None:
             return None
@@ -100,7 +123,7 @@ class Progress:
 
     @property
     def failures(self) -> Sequence[Failure]:
-        """What has failed, and was not done at another attempt."""
+        """Failures that no later attempt has made up for."""
         return list(self._failures.values())
 
     @property
@@ -123,10 +146,10 @@ class Progress:
         return [(name, took) for took, name in sorted(self._named, reverse=True)[:number]]
 
     def remaining(self) -> float | None:
-        """Return how long the rest may take, s; None as long as there is too little to tell from.
+        """Return how long the rest may take, s; None as long as too few jobs are done for an estimate.
 
-        Every job that remains is taken to last as long as those of its rule did so far, and as many to run at a time
-        as did so far.
+        Every job that remains is assumed to last as long as those of its rule did on average, with as many jobs at a
+        time as there were so far.
         """
         done = [took for seconds in self._seconds.values() for took in seconds]
         for rule, planned in self._planned.items():
@@ -152,15 +175,15 @@ class Progress:
             for what in _WORDS
             if what in begun
         ]
-        told = [", ".join(parts)] if parts else []
+        line = [", ".join(parts)] if parts else []
         left = self.remaining()
         if left is not None and sum(self.finished.values()) < self._planned.total():
-            told.append(f"about {_coarse(left)} left")
+            line.append(f"about {_coarse(left)} left")
         if slowest := self.slowest(1):
-            told.append(f"slowest {slowest[0][0]} {duration(slowest[0][1])}")
+            line.append(f"slowest {slowest[0][0]} {duration(slowest[0][1])}")
         if self._failures:
-            told.append(f"{len(self._failures)} failed")
-        return "; ".join(told)
+            line.append(f"{len(self._failures)} failed")
+        return "; ".join(line)
 
     def done(self) -> str:
         """Return in words what was done: ``18 scenes, 1 march``; ``nothing`` where there is nothing."""
@@ -172,8 +195,8 @@ class Progress:
 
 def amounts(counts: Mapping[str, int]) -> str:
     """Return numbers of jobs by rule in words: ``18 scenes, 1 march``; ``nothing`` where there is nothing."""
-    told = {what: sum(number for rule, number in counts.items() if kind(rule) == what) for what in _WORDS}
-    return ", ".join(_amount(number, what) for what, number in told.items() if number) or "nothing"
+    numbers = {what: sum(number for rule, number in counts.items() if kind(rule) == what) for what in _WORDS}
+    return ", ".join(_amount(number, what) for what, number in numbers.items() if number) or "nothing"
 
 
 def duration(seconds: float) -> str:

@@ -1,4 +1,4 @@
-"""Which files of the package a module is made of: what a result depends on, found in its import statements."""
+"""Which jobs run again: the package files that a result depends on, found in import statements; Snakemake's records."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+from rubfric.errors import BrokenResult
 from rubfric.files import whole
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -18,7 +19,7 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def sources(*modules: str) -> tuple[Path, ...]:
     """Return the package's files that importing ``modules`` runs, sorted; absolute paths.
 
-    Imports inside functions count. The package's own ``__init__`` imports nothing and never counts.
+    Imports inside functions count. Files ``__init__.py`` do not: they hold a docstring only.
 
     Parameters
     ----------
@@ -43,11 +44,18 @@ def sources(*modules: str) -> tuple[Path, ...]:
 
 @cache
 def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
-    """Keep a file in ``folder`` that stands for all ``sources(*modules)``, and return its path.
+    """Keep a file in ``folder`` that represents all ``sources(*modules)``, and return its path.
 
-    It holds their digests, and is written anew when one of them has changed: for Snakemake one input that changes with
-    any of them, so that a campaign of many scenes has one file a scene to look after, not fifty. Where it is missing it
-    gets the age of the youngest of them, and what was made since stays up to date.
+    It holds their digests, and is written anew when one of them has changed: for Snakemake a single input that changes
+    with any of them, so that it has one file per scene to check, not fifty. A file that was missing gets the age of the
+    youngest source, so that results made since stay up to date.
+
+    Parameters
+    ----------
+    folder : path-like
+        Where the file is kept; made where it is missing.
+    *modules : str
+        Dotted names such as ``rubfric.simulation``.
 
     Raises
     ------
@@ -69,21 +77,38 @@ def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
     return str(place)
 
 
+def check_records(folder: str | os.PathLike[str]) -> None:
+    """Raise BrokenResult if a file below ``folder``, where Snakemake keeps its records, is not text.
+
+    Snakemake ignores a record that is cut short, but dies with a traceback on bytes that are not text.
+    """
+    for path in sorted(Path(folder).rglob("*")):
+        try:
+            if path.is_file():
+                path.read_bytes().decode()
+        except FileNotFoundError:  # just replaced by another run
+            continue
+        except UnicodeDecodeError as error:
+            raise BrokenResult(
+                f"Snakemake's record {path} is damaged: delete all of them (rm -r {os.fspath(folder)}) and run again; "
+                "results stay, and are checked against the config when they are collected"
+            ) from error
+
+
 def _file(module: str) -> Path:
     path = _find(module)
     if path is None:
-        raise ModuleNotFoundError(f"{module} is no module of rubfric", name=module)
+        raise ModuleNotFoundError(f"{module} is not a module of rubfric", name=module)
     return path
 
 
 def _find(module: str) -> Path | None:
-    """Return the file of a module of the package; None for any other name, and for the package itself."""
+    """Return the file of a module of the package; None for any other name, packages among them."""
     first, *rest = module.split(".")
     if first != _PACKAGE.name or not rest:
         return None
-    base = _PACKAGE.joinpath(*rest)
-    candidates = (base.with_suffix(".py"), base / "__init__.py")
-    return next((path for path in candidates if path.is_file()), None)
+    path = _PACKAGE.joinpath(*rest).with_suffix(".py")
+    return path if path.is_file() else None
 
 
 @cache
@@ -99,7 +124,7 @@ def _imported(path: Path) -> list[Path]:
 
 
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield the statements below a node, not their expressions, which are many and import nothing."""
+    """Yield the statements below a node; not their expressions, which are many and import nothing."""
     for part in ("body", "orelse", "finalbody", "handlers", "cases"):
         for statement in getattr(node, part, ()):
             yield statement

@@ -1,7 +1,8 @@
 """A short log of a run of the workflow, on the terminal and in a file: what is done, what remains, what failed.
 
-Snakemake tells of every job in blocks. This follows the same records, which speak of local jobs, of groups and of jobs
-on a cluster alike, and says now and then in one line where the run stands.
+Snakemake logs every job in blocks. ``RunLog`` is a handler of the same logger and reads its events (``LogEvent``),
+which are the same for local jobs, for groups and for jobs on a cluster, and now and then writes one line on the state
+of the run.
 """
 
 from __future__ import annotations
@@ -16,35 +17,44 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
 
+from snakemake.common import NOTHING_TO_BE_DONE_MSG
+from snakemake.logging import get_event
+from snakemake_interface_logger_plugins.common import LogEvent
+
 from rubfric.runner.findings import findings
 from rubfric.runner.progress import Failure, Progress, amounts, duration
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
 _SHORTEST, _LONGEST = 5.0, 60.0
-# What Snakemake says for every job or at length, and this says in short.
-_CHATTER = ("Select jobs to execute...", "Execute ")
-_TOLD_IN_SHORT = ("JOB_FINISHED", "PROGRESS", "RESOURCES_INFO", "RUN_INFO")
-_UP_TO_DATE, _INTERRUPTED = "Nothing to be done", "Terminating processes on user request"
+# Snakemake's events that the short log covers. "Select jobs" has no event: with other words it would be seen again.
+_COVERED = {
+    LogEvent.JOB_STARTED,
+    LogEvent.JOB_FINISHED,
+    LogEvent.PROGRESS,
+    LogEvent.RESOURCES_INFO,
+    LogEvent.RUN_INFO,
+}
+_SELECTING = "Select jobs to execute..."
 _MOST_NAMED, _MOST_FAILURES = 5, 20
 
 
 class RunLog(logging.Handler):
-    """Follows the records of Snakemake's logger.
+    """Follows the events of Snakemake's logger.
 
     Parameters
     ----------
     results : str
         Folder of the results; the log goes to ``logs/run.log`` in it.
     targets : collection of str
-        Rules that make nothing, whose jobs do not count.
+        Rules without output, whose jobs do not count.
     tables : iterable of str
         Tables of single scales, for errors and warnings.
     first : iterable of str
-        Files to open first, the most telling first; those that are missing are not named.
+        Files to open first, the most important first; those that are missing are not named.
     dry : callable
-        Returns whether nothing is to be run.
+        Returns whether this is a dry run.
     seconds : callable
-        Returns how long the job with a log took, s, or None where that is not known.
+        Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
         Where the lines go beside the file; None for nowhere.
     """
@@ -71,51 +81,53 @@ class RunLog(logging.Handler):
         self._ticker: threading.Thread | None = None
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Take note of one record; none of them may stop the run."""
-        event, about = _event(record), record.__dict__
+        """Take note of one record; no error in here stops the run."""
+        about = record.__dict__
         try:
-            if event == "RUN_INFO":
-                self._plan(about["stats"])
-            elif event == "JOB_INFO":
-                self._start(about)
-            elif event == "JOB_FINISHED":
-                self._finish(about["job_id"])
-            elif event == "JOB_ERROR":
-                self._fail(about["jobid"], about["log"], about["aux"])
-            elif event == "GROUP_ERROR":
-                self._tell([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
-            elif not event and isinstance(record.msg, str):
-                self._interrupted |= record.msg.startswith(_INTERRUPTED)
-                self._say(self._places() if record.msg.startswith(_UP_TO_DATE) else [])
+            match get_event(record):
+                case LogEvent.RUN_INFO:
+                    self._plan(about["stats"])
+                case LogEvent.JOB_INFO:
+                    self._start(about)
+                case LogEvent.JOB_FINISHED:
+                    self._finish(about["job_id"])
+                case LogEvent.JOB_ERROR:
+                    self._fail(about["jobid"], about["log"], about["aux"])
+                case LogEvent.GROUP_ERROR:
+                    self._report([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
+                case None if record.msg == NOTHING_TO_BE_DONE_MSG:
+                    self._show(self._places())
+            # Snakemake logs an interruption while it handles it, and the jobs' failures only after that.
+            self._interrupted |= isinstance(sys.exception(), KeyboardInterrupt | SystemExit)
         except Exception:
             self.handleError(record)
 
     def begin(self) -> None:
-        """Begin to tell: from now on a line now and then."""
-        self._keep([f"{_now()}  {' '.join(sys.argv)}"])
+        """Begin the log; from now on it gets a line now and then."""
+        self._append([f"{_now()}  {' '.join(sys.argv)}"])
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
     def succeed(self) -> None:
-        """Tell what came out, and where it is."""
+        """Report the outcome, and where it is."""
         self._stop()
         progress = self._progress
-        self._tell([f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._came_out(), *self._places()])
+        self._report([f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._places()])
 
     def fail(self) -> None:
-        """Tell what failed, where the reasons are, and what to do."""
+        """Report what failed, where the reasons are, and what to do."""
         self._stop()
         progress = self._progress
         failures = [] if self._interrupted else progress.failures
         what = f"{len(failures)} failed" if failures else "interrupted"
-        told = [f"Stopped after {duration(progress.elapsed)}: {what}; done: {progress.done()}"]
-        told += [_failed(failure) for failure in failures[:_MOST_FAILURES]]
+        lines = [f"Stopped after {duration(progress.elapsed)}: {what}; done: {progress.done()}"]
+        lines += [_failed(failure) for failure in failures[:_MOST_FAILURES]]
         if len(failures) > _MOST_FAILURES:
-            told.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._path.parent}")
-        self._tell([*told, "what is done stays; running again makes the rest"])
+            lines.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._path.parent}")
+        self._report([*lines, "what is done stays; running again makes the rest"])
 
     def close(self) -> None:
-        """Stop telling."""
+        """End the log."""
         self._stop()
         super().close()
 
@@ -123,9 +135,9 @@ class RunLog(logging.Handler):
         planned = {rule: count for rule, count in stats.items() if rule != "total" and rule not in self._targets}
         if not self._dry():
             self._progress = Progress(planned)
-            self._say([f"To do: {amounts(planned)}"])
-        elif self._would:  # told a second time at the end of a dry run, after all its jobs
-            self._say([f"Would be made: {amounts(planned)}", *_names(self._would)])
+            self._show([f"To do: {amounts(planned)}"])
+        elif self._would:  # the second time, at the end of a dry run, after all its jobs
+            self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
         rule = about["rule_name"]
@@ -140,38 +152,38 @@ class RunLog(logging.Handler):
     def _finish(self, job: int) -> None:
         logs = self._progress.logs.get(job, ())
         if self._progress.finish(job, self._seconds(logs[0]) if logs else None):
-            self._tell([self._progress.line()])
+            self._report([self._progress.line()])
 
     def _fail(self, job: int, logs: Collection[str], elsewhere: Mapping[str, Any]) -> None:
         failure = self._progress.fail(job, logs)
         if failure is None:
             return
-        self._keep([f"  {_failed(failure)}"])
+        self._append([f"  {_failed(failure)}"])
         if elsewhere:  # of what failed here Snakemake gives the reason at once
-            self._say([_failed(failure)])
+            self._show([_failed(failure)])
 
     def _tick(self) -> None:
-        said = ""
+        last = ""
         while not self._over.wait(min(max(self._progress.elapsed / 20.0, _SHORTEST), _LONGEST)):
             with self.lock or contextlib.nullcontext():
                 line = self._progress.line()
-            if line and line != said:
-                self._tell([line])
-            said = line
+            if line and line != last:
+                self._report([line])
+            last = line
 
     def _stop(self) -> None:
         self._over.set()
         if self._ticker and self._ticker is not threading.current_thread():
             self._ticker.join(1.0)
 
-    def _came_out(self) -> list[str]:
-        """Return what was slow, and what the tables say, where they are of this run or still hold."""
+    def _outcome(self) -> list[str]:
+        """Return the slowest jobs, and findings of the tables where those are of this run or still valid."""
         slowest = self._progress.slowest(_MOST_NAMED)
-        told = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
+        lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
         finished = self._progress.finished
         if "scale_table" in finished or "scene" not in finished:
-            told += findings(self._tables)
-        return told
+            lines += findings(self._tables)
+        return lines
 
     def _places(self) -> list[str]:
         first = [path for path in self._first if os.path.exists(path)]
@@ -179,39 +191,39 @@ class RunLog(logging.Handler):
         folder = self._results
         return [*opened, f"tables are in {folder}/tables, figures in {folder}/figures, fields in {folder}/scenes"]
 
-    def _tell(self, lines: Sequence[str]) -> None:
-        self._say(lines)
-        self._keep([f"  {line}" for line in lines])
+    def _report(self, lines: Sequence[str]) -> None:
+        self._show(lines)
+        self._append([f"  {line}" for line in lines])
 
-    def _say(self, lines: Iterable[str]) -> None:
+    def _show(self, lines: Iterable[str]) -> None:
         if self._stream is not None:
             with contextlib.suppress(OSError, ValueError):  # a terminal that is gone
                 self._stream.write("".join(f"  {line}\n" for line in lines))
                 self._stream.flush()
 
-    def _keep(self, lines: Iterable[str]) -> None:
-        with contextlib.suppress(OSError):  # a full disk is for the jobs to tell
+    def _append(self, lines: Iterable[str]) -> None:
+        with contextlib.suppress(OSError):  # the jobs report a full disk
             self._path.parent.mkdir(parents=True, exist_ok=True)
             with self._path.open("a", encoding="utf-8") as stream:
                 stream.write("".join(f"{line}\n" for line in lines))
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:
-    """Let ``run`` follow a logger; ``silence`` keeps what it tells in short from the logger's other handlers."""
+    """Let a run log follow a logger.
+
+    Parameters
+    ----------
+    run : RunLog
+        The new handler of the logger.
+    logger : logging.Logger
+        Snakemake's.
+    silence : bool
+        Whether the logger's other handlers leave out the events that the short log covers.
+    """
     if silence:
         for handler in logger.handlers:
-            handler.addFilter(_is_news)
+            handler.addFilter(lambda record: get_event(record) not in _COVERED and record.msg != _SELECTING)
     logger.addHandler(run)
-
-
-def _is_news(record: logging.LogRecord) -> bool:
-    chatter = isinstance(record.msg, str) and record.msg.startswith(_CHATTER)
-    return not chatter and _event(record) not in _TOLD_IN_SHORT
-
-
-def _event(record: logging.LogRecord) -> str:
-    """Return the name of what a record of Snakemake's tells of; nothing for plain text."""
-    return getattr(getattr(record, "event", None), "name", "")
 
 
 def _failed(failure: Failure) -> str:

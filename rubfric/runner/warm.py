@@ -1,6 +1,6 @@
 """Imported by the fork server of the jobs: everything that a job needs, imported and used once.
 
-Much of the scientific stack loads itself only on first use; what is loaded here, no job has to load again.
+Much of the scientific stack is loaded on first use only; what is loaded here, no job loads again.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ import rubfric.results.tables
 from rubfric.results.dataset import write
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 
@@ -42,8 +43,8 @@ def _use_everything() -> None:
 
 try:
     _use_everything()
-except Exception as error:  # whatever is wrong here is wrong in some job too, which can say so better
+except Exception as error:  # what is wrong here fails a job too, with a better message
     print(f"The jobs start cold: {error}", file=sys.stderr)
-# What is here stays here: the forks' garbage collection need not touch, and so copy, it.
+# Frozen objects are left alone by the garbage collection of the forks, which would otherwise copy their pages.
 gc.collect()
 gc.freeze()

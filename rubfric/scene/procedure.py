@@ -8,15 +8,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
-from rubfric import checks
 from rubfric.arrays import Real, Whole
-from rubfric.config.choices import MOST_COLUMNS, MOST_STEPS, MOST_STEPS_PER_WAVELENGTH, STARTS
 from rubfric.errors import InvalidInput
+from rubfric.rules import Choice, Integer, Number, check_fields
+from rubfric.scene.numerics import MOST_COLUMNS
 from rubfric.scene.scene import Scene
 
+# What a march begins with: pressing in time, infinitely slow pressing, or steady sliding.
+STARTS = ("pressed", "relaxed", "steady")
+# Most steps of a march, whose records fill a gigabyte then.
+MOST_STEPS = 10**7
 PHASES = ("press", "hold", "start", "slide")
 # Loading time and hold by default, over the longest relaxation time of the rubber.
 _LOADING, _HOLD = 3.0, 3.0
@@ -24,55 +29,58 @@ _LOADING, _HOLD = 3.0, 3.0
 
 @dataclass(frozen=True)
 class Procedure:
-    """What is done to the block, and in how many steps.
+    """What is done to the block, and in how many steps: meaning, bounds and default of each field are beside it.
 
-    Parameters
-    ----------
-    start : {"pressed", "relaxed", "steady"}
-        Press the block in time; or begin with the block pressed infinitely slowly; or with steady sliding.
-    columns : int
-        Columns of cells of the block, a multiple of 8.
-    loading_time, hold_time : float, optional
-        Of pressing, s; three times the longest relaxation time each by default.
-    loading_steps, hold_steps : int
-        Steps of the two.
-    start_share : float
-        Distance over which the speed rises, over a wavelength; not used in a start from steady sliding.
-    steps_per_wavelength : int
-        Steps in which the road goes past by a wavelength, at full speed.
-    wavelengths : int
-        Wavelengths to slide at most, at full speed.
-    saturation : float
-        Relative variation of friction, averaged over wavelengths, up to which it counts as saturated.
-    until_saturated : bool
-        Whether sliding ends there, or after all wavelengths.
+    Raises
+    ------
+    InvalidInput
+        For any value outside these bounds.
     """
 
-    start: str = "pressed"
-    columns: int = 64
-    loading_time: float | None = None
-    hold_time: float | None = None
-    loading_steps: int = 32
-    hold_steps: int = 16
-    start_share: float = 0.25
-    steps_per_wavelength: int = 128
-    wavelengths: int = 40
-    saturation: float = 0.005
+    start: Annotated[
+        str,
+        Choice(
+            "Begin by pressing the block in time (pressed), from the block pressed infinitely slowly (relaxed), or "
+            "from steady sliding (steady).",
+            STARTS,
+        ),
+    ] = "pressed"
+    columns: Annotated[int, Integer("Columns of cells along one wavelength.", high=MOST_COLUMNS, step=8)] = 64
+    loading_time: Annotated[
+        float | None, Number("Time of loading; three times the longest relaxation time where it is left out.", "s")
+    ] = None
+    hold_time: Annotated[float | None, Number("Time for which the load is held then; the same.", "s")] = None
+    loading_steps: Annotated[int, Integer("Steps of loading.", 1, MOST_STEPS)] = 32
+    hold_steps: Annotated[int, Integer("Steps for which the load is held.", 0, MOST_STEPS)] = 16
+    start_share: Annotated[
+        float,
+        Number(
+            "Distance over which the speed rises, over a wavelength; not used in a start from steady sliding.", low=0.0
+        ),
+    ] = 0.25
+    steps_per_wavelength: Annotated[
+        int, Integer("Steps of time in which the road goes past by a wavelength, at full speed.", 4, 2**16)
+    ] = 128
+    wavelengths: Annotated[
+        int,
+        Integer(
+            "Wavelengths to slide at most, in ten million steps at most; a march ends earlier where friction has "
+            "saturated.",
+            1,
+            MOST_STEPS // 4,
+        ),
+    ] = 40
+    saturation: Annotated[
+        float,
+        Number(
+            "Relative variation of friction, averaged over wavelengths, up to which it counts as saturated.", low=0.0
+        ),
+    ] = 0.005
     until_saturated: bool = True
 
     def __post_init__(self) -> None:
-        at = "procedure."
-        checks.one_of(at + "start", self.start, STARTS)
-        checks.multiple(at + "columns", self.columns, 8, MOST_COLUMNS)
-        for name in ("loading_time", "hold_time"):
-            if getattr(self, name) is not None:
-                checks.positive(at + name, getattr(self, name), "s")
-        for name, least in (("loading_steps", 1), ("hold_steps", 0)):
-            checks.whole(at + name, getattr(self, name), least, MOST_STEPS)
-        steps = checks.whole(at + "steps_per_wavelength", self.steps_per_wavelength, 4, MOST_STEPS_PER_WAVELENGTH)
-        checks.whole(at + "wavelengths", self.wavelengths, 1, MOST_STEPS // steps)
-        for name in ("start_share", "saturation"):
-            checks.at_least(at + name, getattr(self, name), 0.0)
+        check_fields(self, "procedure.")
+        check_wavelengths("procedure.wavelengths", self.wavelengths, self.steps_per_wavelength)
 
     def steps(self, scene: Scene) -> Steps:
         """Return the steps for a scene."""
@@ -110,6 +118,17 @@ class Procedure:
         length = period / self.steps_per_wavelength
         travelled = scene.velocity * length * count * share**3 * (1.0 - 0.5 * share)
         return [_phase("start", np.full(count, length), travelled, np.full(count, scene.pressure))] if count else []
+
+
+def check_wavelengths(key: str, wavelengths: int, steps_per_wavelength: int) -> None:
+    """Raise InvalidInput, naming ``key``, where a march of so many wavelengths has more than ``MOST_STEPS`` steps.
+
+    Parameters
+    ----------
+    key : str
+    wavelengths, steps_per_wavelength : int
+    """
+    Integer(high=MOST_STEPS // steps_per_wavelength).check(key, wavelengths)
 
 
 @dataclass(frozen=True)

@@ -7,87 +7,18 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from functools import lru_cache
-from typing import Any
+from typing import Annotated, Any
 
 from rubfric import checks
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import PLANES, Material
+from rubfric.rules import Choice, Integer, Number, check_fields
+from rubfric.scene.numerics import Numerics
 
 KINEMATICS = ("small", "finite", "auto")
-DILATATIONS = ("auto", "pointwise", "mean")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
-# Most columns that may be asked for.
-MOST_COLUMNS = 2**20
-
-
-@dataclass(frozen=True)
-class Numerics:
-    """How finely a scene is solved. The defaults are those of the workflow's config.
-
-    Parameters
-    ----------
-    accuracy : float
-        Relative accuracy of friction asked for, 1e-6 to 0.5: it decides between small and finite strain, which
-        Prony branches a scene needs, and whether the first mesh suffices.
-    contact_nodes, finite_contact_nodes : int
-        Fewest surface nodes inside the contact on the first mesh that may suffice, 4 to 4096; the number of columns
-        follows from it. In finite strain the latter.
-    columns_min, finite_columns_min, columns_max : int
-        Bounds on the number of columns of cells along one wavelength, multiples of 8 up to 2**20. In finite strain the
-        second.
-    row_growth : float
-        Ratio of the heights of neighbouring rows on that mesh, away from the road, 1.00001 to 3.
-    refinements : int
-        Most finer meshes that may follow where the estimated error exceeds the accuracy, 0 to 12.
-    first_row : float
-        Height of the row at the road over the width of a column, 0.01 to 100.
-    dilatation : {"auto", "pointwise", "mean"}
-        How the cells integrate dilatation; see ``rubfric.mechanics.block.block.Block``.
-    folding : float
-        Share of the accuracy that leaving out or gathering Prony branches may use, 0 to 1; 0 keeps them all.
-    tolerance : float
-        Distance from balance and contact at which finite strain is solved, root mean square over the amplitude of
-        the road, 1e-12 to 1e-2.
-    output_columns : int
-        Most columns of cells that the fields of the result file keep, a multiple of 8.
-    """
-
-    accuracy: float = 0.01
-    contact_nodes: int = 32
-    finite_contact_nodes: int = 16
-    columns_min: int = 128
-    finite_columns_min: int = 64
-    columns_max: int = 32768
-    row_growth: float = 1.2
-    refinements: int = 3
-    first_row: float = 1.0
-    dilatation: str = "auto"
-    folding: float = 0.01
-    tolerance: float = 1e-6
-    output_columns: int = 128
-
-    def __post_init__(self) -> None:
-        at, put = "numerics.", object.__setattr__
-        ranges = {
-            "accuracy": (1e-6, 0.5),
-            "row_growth": (1.00001, 3.0),
-            "first_row": (0.01, 100.0),
-            "folding": (0.0, 1.0),
-            "tolerance": (1e-12, 1e-2),
-        }
-        for name, (least, most) in ranges.items():
-            put(self, name, checks.at_least(at + name, getattr(self, name), least))
-            checks.at_most(at + name, getattr(self, name), most)
-        counts = {"contact_nodes": (4, 4096), "finite_contact_nodes": (4, 4096), "refinements": (0, 12)}
-        for name, (fewest, highest) in counts.items():
-            put(self, name, checks.whole(at + name, getattr(self, name), fewest))
-            checks.at_most(at + name, getattr(self, name), highest)
-        for name in ("columns_min", "finite_columns_min", "columns_max", "output_columns"):
-            put(self, name, checks.multiple(at + name, getattr(self, name), 8, MOST_COLUMNS))
-        checks.one_of(at + "dilatation", self.dilatation, DILATATIONS)
-        checks.at_least(at + "columns_max", self.columns_max, max(self.columns_min, self.finite_columns_min))
 
 
 @dataclass(frozen=True)
@@ -116,24 +47,18 @@ class Scene:
         Small strain, finite strain, or small strain only where that is accurate enough.
     """
 
-    scale: int
+    scale: Annotated[int, Integer(high=10**6)]
     road: SineScale
-    velocity: float
-    pressure: float
-    aspect: float
+    velocity: Annotated[float, Number(unit="mm/s")]
+    pressure: Annotated[float, Number(unit="MPa")]
+    aspect: Annotated[float, Number()]
     material: Material
-    plane: str = "stress"
+    plane: Annotated[str, Choice(words=PLANES)] = "stress"
     numerics: Numerics = field(default_factory=Numerics)
-    kinematics: str = "auto"
+    kinematics: Annotated[str, Choice(words=KINEMATICS)] = "auto"
 
     def __post_init__(self) -> None:
-        put = object.__setattr__
-        put(self, "scale", checks.whole("scale", self.scale, 1, 10**6))
-        put(self, "velocity", checks.positive("velocity", self.velocity, "mm/s"))
-        put(self, "pressure", checks.positive("pressure", self.pressure, "MPa"))
-        put(self, "aspect", checks.positive("aspect", self.aspect))
-        checks.one_of("plane", self.plane, PLANES)
-        checks.one_of("kinematics", self.kinematics, KINEMATICS)
+        check_fields(self)
         flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
         if self.aspect < flattest:
             raise InvalidInput(

@@ -14,7 +14,8 @@ from visit import MISSING, missing_program, requested_addresses, resize, start
 
 import rubfric
 from rubfric.pages.explorer.data import payload
-from rubfric.pages.explorer.page import write_page
+from rubfric.pages.explorer.page import page
+from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
 
@@ -83,7 +84,7 @@ def explorer(solved: dict[tuple[int, float, float], Path], tmp_path_factory: pyt
         scenes = {place: dataset.read(path) for place, path in files.items()}
         shown = [scene for place, scene in scenes.items() if pictured(place)]
         path = tmp_path_factory.mktemp("page") / "explorer.html"
-        write_page(payload(campaign, shown, ASPECT, "road"), path)
+        write_page(page(payload(campaign, shown, ASPECT, "road")), path)
         return Explored(path, campaign, scenes)
 
     return build

@@ -32,16 +32,16 @@ SPEEDS, PRESSURES = (1.0, 100.0, 1000.0, 10000.0), (0.5, 5.0)
 MEASURED = re.compile(r"(\d+\.\d+) ± (\d+\.\d+)")
 
 
-def told(text: str) -> tuple[float, float, float]:
+def numbers_in(text: str) -> tuple[float, float, float]:
     """Return friction and error out of some words, and half of what their last digit counts."""
     found = MEASURED.search(text)
     assert found, text
     return float(found[1]), float(found[2]), 0.5 * 10.0 ** -len(found[1].partition(".")[2])
 
 
-def assert_tells(text: str, friction: float, error: float) -> None:
+def assert_gives(text: str, friction: float, error: float) -> None:
     """Words must hold a friction coefficient to its last digit, and its error, rounded up."""
-    said, slack, half = told(text)
+    said, slack, half = numbers_in(text)
     assert abs(said - friction) <= half * 1.001
     assert -1e-9 <= slack - error <= 2.0 * half * 1.001
 
@@ -84,14 +84,14 @@ def test_hovering_tells_the_numbers_of_the_dataset(browser: WebDriver, whole: An
         friction = whole.at("friction_coefficient", scale, speed, pressure)
         said = hover_words(browser, "chart", place(browser, "chart", speed, friction))
         assert f"{speed:g}mm/s,{pressure:g}MPa" in re.sub(r"\s", "", said)
-        assert_tells(said, friction, whole.at("friction_coefficient_error", scale, speed, pressure))
+        assert_gives(said, friction, whole.at("friction_coefficient_error", scale, speed, pressure))
         contact = 100.0 * whole.at("contact_fraction", scale, speed, pressure)
         assert abs(float(re.search(r"contact ([\d.]+)", said)[1]) - contact) <= 0.5  # type: ignore[index]
         kind = "finite" if whole.at("finite_strain", scale, speed, pressure) else "small"
         assert f"{kind} strain" in said
     show(browser, "scale=1&view=map")
     friction, error = (whole.at(f"friction_coefficient{part}", 1, 1000.0, 0.5) for part in ("", "_error"))
-    assert_tells(hover_words(browser, "chart", place(browser, "chart", 2, 0)), friction, error)
+    assert_gives(hover_words(browser, "chart", place(browser, "chart", 2, 0)), friction, error)
 
 
 def test_choosing_a_scale_changes_the_curves(browser: WebDriver, whole: Any) -> None:
@@ -117,7 +117,7 @@ def assert_shows(browser: WebDriver, whole: Any, scale: int, speed: float, press
     """The block and the numbers beside the chart must be those of the scene."""
     scene = whole.scenes[scale, speed, pressure]
     friction, error = float(scene.friction_coefficient), float(scene.friction_coefficient_error)
-    assert_tells(words(browser, "headline"), friction, error)
+    assert_gives(words(browser, "headline"), friction, error)
     assert words(browser, "scene-title").startswith(f"Scale {scale} at ")
     drawn = traces(browser, "picture")
     profile = next(trace for trace in drawn if trace.get("yaxis") == "y2")
@@ -191,12 +191,12 @@ def test_total_adds_the_scales_up(browser: WebDriver, whole: Any) -> None:
     open_explorer(browser, whole.path, "scale=total&pressure=5&speed=1000")
     parts = [whole.at("friction_coefficient", scale, 1000.0, 5.0) for scale in (1, 2)]
     errors = [whole.at("friction_coefficient_error", scale, 1000.0, 5.0) for scale in (1, 2)]
-    assert_tells(words(browser, "headline"), sum(parts), sum(errors))
+    assert_gives(words(browser, "headline"), sum(parts), sum(errors))
     bars = [trace for trace in traces(browser, "picture") if trace.get("type") == "bar"]
     assert [bar["y"][2] for bar in bars] == pytest.approx(parts, rel=1e-7)
     rows = words(browser, "numbers")
     for part, error, found in zip(parts, errors, MEASURED.finditer(rows), strict=False):
-        assert_tells(found[0], part, error)
+        assert_gives(found[0], part, error)
     small = browser.execute_script("return [...document.querySelectorAll('.small canvas')].map((one) => one.width)")
     assert len(small) == 2
     browser.find_elements("css selector", ".small")[1].click()
@@ -239,7 +239,7 @@ def test_peak_is_named_only_where_it_is_one(browser: WebDriver, whole: Any) -> N
         ends = max(values[0] + errors[0], values[-1] + errors[-1])
         said = words(browser, "peak")
         assert ("the peak is" in said) == (ends < values[top] - errors[top])
-        assert_tells(said, values[top], errors[top])
+        assert_gives(said, values[top], errors[top])
 
 
 def test_page_prints_on_paper(browser: WebDriver, whole: Any) -> None:
@@ -264,7 +264,7 @@ def test_one_scene_is_a_campaign(browser: WebDriver, explorer: Callable[..., Any
     assert not console_errors(browser)
 
 
-def test_gaps_are_told(browser: WebDriver, explorer: Callable[..., Any]) -> None:
+def test_gaps_are_shown(browser: WebDriver, explorer: Callable[..., Any]) -> None:
     gaps = {(1, 100.0, 0.5), (2, 1000.0, 0.5)}
     page = explorer(kept=lambda place: place not in gaps, pictured=lambda place: place != (1, 1.0, 5.0))
     open_explorer(browser, page.path, "scale=1&pressure=0.5&speed=100")
@@ -275,7 +275,7 @@ def test_gaps_are_told(browser: WebDriver, explorer: Callable[..., Any]) -> None
     assert words(browser, "headline") == "Not run"
     assert "2 of 4 speeds were not run" in words(browser, "peak")
     open_explorer(browser, page.path, "scale=1&view=map&pressure=5&speed=1")
-    assert_tells(
+    assert_gives(
         words(browser, "headline"), *(page.at(f"friction_coefficient{part}", 1, 1.0, 5.0) for part in ("", "_error"))
     )
     assert browser.execute_script("return document.getElementById('picture').hidden")

@@ -1,4 +1,4 @@
-"""What of the paper stands: verdicts of the default campaign, and that the README tells the same."""
+"""Which claims of the paper are reproduced: verdicts of the default campaign, and the same in docs/claims.md."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ def test_every_decided_number_is_beyond_its_error(evidence: pd.DataFrame) -> Non
     assert (distance >= decided["error"].fillna(0.0) * (1.0 - 1e-5)).all()
 
 
-def test_readme_tells_the_same_verdicts(verdicts: pd.Series) -> None:
-    text = (SOURCE / "README.md").read_text(encoding="utf-8")
+def test_page_has_the_same_verdicts(verdicts: pd.Series) -> None:
+    text = (SOURCE / "docs" / "claims.md").read_text(encoding="utf-8")
     table = text.partition("<!-- claims -->\n")[2].partition("<!-- /claims -->")[0].splitlines()
     heads = [name.strip().replace(" ", "_") for name in table[0].strip("|").split("|")][2:]
     readings = ["campaign", *heads[1:]]
@@ -70,5 +70,5 @@ def test_readme_tells_the_same_verdicts(verdicts: pd.Series) -> None:
         cells = [cell.strip(" *") for cell in line.strip("|").split("|")]
         claim = re.match(r"C\d", cells[0])
         assert claim
-        told = dict(zip(readings, cells[2:], strict=True))
-        assert told == {reading: verdicts.get((claim[0], reading), "") for reading in readings}
+        page = dict(zip(readings, cells[2:], strict=True))
+        assert page == {reading: verdicts.get((claim[0], reading), "") for reading in readings}

@@ -10,10 +10,12 @@ import yaml
 from hypothesis import strategies as st
 
 from rubfric import checks
-from rubfric.config.choices import STARTS
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.scene.scene import COLUMNS_PER_HEIGHT, KINEMATICS, Numerics, Scene
+from rubfric.rules import LARGEST, LONGEST_WORD, SMALLEST
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.procedure import STARTS
+from rubfric.scene.scene import COLUMNS_PER_HEIGHT, KINEMATICS, Scene
 
 Config = dict[str, Any]
 
@@ -22,7 +24,7 @@ SHIPPED: Config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(enc
 MOST_BRANCHES = 40
 
 names = st.one_of(
-    st.text("ABCXYZabcxyz0189-_", min_size=1, max_size=6), st.sampled_from(["_", "-", "x" * checks.LONGEST_WORD])
+    st.text("ABCXYZabcxyz0189-_", min_size=1, max_size=6), st.sampled_from(["_", "-", "x" * LONGEST_WORD])
 )
 
 
@@ -33,9 +35,9 @@ def magnitudes(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 positive = st.one_of(
-    magnitudes(checks.SMALLEST, checks.LARGEST),
+    magnitudes(SMALLEST, LARGEST),
     st.integers(1, 10**9),
-    st.sampled_from([checks.SMALLEST, checks.LARGEST, 0.1 + 0.2, 1.0 / 3.0]),
+    st.sampled_from([SMALLEST, LARGEST, 0.1 + 0.2, 1.0 / 3.0]),
 )
 poissons_ratios = st.one_of(
     st.floats(-0.999, 0.4999), st.sampled_from([-1.0 + 1e-11, 0.0, 0.5 - 1e-11, 0.4999]), st.just(0)
@@ -89,7 +91,7 @@ def scenes(draw: st.DrawFn, most_branches: int = MOST_BRANCHES) -> Scene:
         road=draw(roads),
         velocity=draw(positive),
         pressure=draw(positive),
-        aspect=draw(magnitudes(1.01 * flattest, checks.LARGEST)),
+        aspect=draw(magnitudes(1.01 * flattest, LARGEST)),
         material=draw(rubbers(most_branches)),
         plane=draw(st.sampled_from(PLANES)),
         kinematics=draw(st.sampled_from(KINEMATICS)),

@@ -1,4 +1,4 @@
-"""Take the picture of the page that the README shows: python tests/browser/picture.py, after a run of the campaign."""
+"""Take the picture of the page that the README shows: python tests/support/picture.py, after a run of the campaign."""
 
 from __future__ import annotations
 

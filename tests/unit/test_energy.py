@@ -14,7 +14,8 @@ from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import solve_small
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate
 
 SceneMaker = Callable[..., Scene]

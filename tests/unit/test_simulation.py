@@ -10,14 +10,14 @@ import xarray as xr
 
 import rubfric
 from rubfric import simulation
-from rubfric.config.presets import fineness
 from rubfric.errors import NotConverged
 from rubfric.mechanics.block import contact
 from rubfric.mechanics.finite import continuation
 from rubfric.mechanics.finite.newton import Stalled
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 KINEMATICS = pytest.mark.parametrize("kinematics", ["small", "finite"])

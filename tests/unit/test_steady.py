@@ -11,7 +11,8 @@ from rubfric import simulation as steady
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.mechanics.small.steady import SmallSolution, solve_small
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 COARSE = Numerics(finite_contact_nodes=4, finite_columns_min=32, row_growth=1.4)

@@ -11,7 +11,7 @@ import pytest
 
 from rubfric.config.campaign import load
 from rubfric.scene.scene import Scene
-from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, verdict
+from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, coverage_table
 from rubfric.studies.accuracy.scenes import SETS, drawn_scenes
 
 pytestmark = pytest.mark.thorough
@@ -31,7 +31,7 @@ def drawn() -> Iterator[tuple[str, Scene]]:
 
 def test_estimates_cover_true_errors_and_not_much_more() -> None:
     table = pd.concat([calibrate(name, name.partition("_")[0], scene, PRESETS) for name, scene in drawn()])
-    found = verdict(table).set_index("set").loc["all"]
+    found = coverage_table(table).set_index("set").loc["all"]
     assert found["scenes"] + found["refused"] == len(SETS) * sum(COUNTS.values()) * len(PRESETS)
     assert found["refused"] <= 0.1 * len(table)
     assert found["coverage"] >= COVERAGE

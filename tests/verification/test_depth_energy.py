@@ -12,9 +12,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

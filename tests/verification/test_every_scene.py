@@ -12,7 +12,8 @@ import pytest
 
 from rubfric.config.campaign import load
 from rubfric.mechanics.finite.steady import FiniteSolution
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 pytestmark = pytest.mark.thorough

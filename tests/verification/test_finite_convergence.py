@@ -9,7 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from rubfric.mechanics.steady.energies import Energies
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

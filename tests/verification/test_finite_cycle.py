@@ -19,7 +19,8 @@ from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.energy import dissipated_and_stored
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]

@@ -11,7 +11,8 @@ import pytest
 
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]

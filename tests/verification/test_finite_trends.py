@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from rubfric.config.presets import fineness
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 SceneMaker = Callable[..., Scene]

@@ -8,7 +8,8 @@ import pytest
 
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator
 import pytest
 from boundary_element import friction_coefficient
 
-from rubfric.config.presets import fineness
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory import layer as reference
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

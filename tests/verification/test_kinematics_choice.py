@@ -9,9 +9,9 @@ from itertools import product
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.theory.kinematics import decide, estimated_correction
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

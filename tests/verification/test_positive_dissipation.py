@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

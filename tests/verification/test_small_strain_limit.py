@@ -10,7 +10,8 @@ import pytest
 from rubfric.mechanics.theory.layer import full_contact_pressure
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 SceneMaker = Callable[..., Scene]

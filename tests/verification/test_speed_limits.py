@@ -9,7 +9,8 @@ import pytest
 
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 
 # Speeds so far beyond the branches that the highest harmonics of the mesh are as well.

@@ -13,8 +13,9 @@ from begin_march import begin
 
 from rubfric.mechanics.march.march import wavelength_means
 from rubfric.road.sine import SineScale
+from rubfric.scene.numerics import Numerics
 from rubfric.scene.procedure import Procedure
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]

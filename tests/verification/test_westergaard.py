@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory import layer as reference
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
 SceneMaker = Callable[..., Scene]

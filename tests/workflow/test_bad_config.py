@@ -43,12 +43,16 @@ def assert_refused(fresh: Project, done: subprocess.CompletedProcess[str], sente
             "rubbers: {gummi_weiß: {youngs_modulus: 1, poissons_ratio: 0, shear_fractions: [], relaxation_times: []}}",
             "name in rubbers is 'gummi_weiß', but must be a word of letters, digits, '-' and '_'",
         ),
+        (
+            "grid:\n  pressures: [1]\n  aspect: 1\n  pressures: [2]\n",
+            "{root}/bad.yaml has the key 'grid.pressures' twice, in lines 2 and 4; keep one",
+        ),
     ],
 )
 def test_bad_overlay_is_refused_in_one_sentence(fresh: Project, overlay: str, sentence: str) -> None:
     (fresh.root / "bad.yaml").write_text(overlay, encoding="utf-8")
     with_overlay = Project(fresh.root, (*MINIMAL, "bad.yaml"))
-    assert_refused(fresh, with_overlay.snakemake(), sentence)
+    assert_refused(fresh, with_overlay.snakemake(), sentence.replace("{root}", str(fresh.root)))
 
 
 def test_bad_value_on_the_command_line_is_refused_in_one_sentence(fresh: Project) -> None:

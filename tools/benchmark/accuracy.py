@@ -1,4 +1,4 @@
-"""Publish what ``snakemake -j2 accuracy`` has measured: tables in the README, page and figures in docs.
+"""Publish what ``snakemake -j2 accuracy`` has measured: tables and figures of docs/accuracy.md.
 
 It refuses where the presets of the config are not those that the measurements choose.
 """
@@ -12,16 +12,14 @@ import pandas as pd
 import tables
 
 from rubfric.config.campaign import load
-from rubfric.studies.accuracy.page import calibration_text, preset_text
 from rubfric.studies.accuracy.presets import presets_that_differ, start_table
 
 PROJECT = Path(__file__).resolve().parents[2]
 MEASURED = PROJECT / "results/accuracy"
-DOCS = PROJECT / "docs"
 
 
 def main() -> None:
-    """Check the presets, write the README's tables and copy page, tables and figures to docs."""
+    """Check the presets, then copy page, tables and figures to docs."""
     if not (MEASURED / "page.md").exists():
         raise SystemExit("results/accuracy is not there: run snakemake -j2 accuracy first")
     presets = load(PROJECT / "config/config.yaml").presets
@@ -31,17 +29,15 @@ def main() -> None:
     if differing:
         chosen = starts[starts["chosen"]].to_string(index=False)
         raise SystemExit(f"the presets {', '.join(differing)} of the config are not those that were chosen:\n{chosen}")
-    accuracies = {name: numerics.accuracy for name, numerics in presets.items()}
-    calibration = pd.read_csv(MEASURED / "calibration.csv")
-    tables.publish("presets", f"{preset_text(ladder, accuracies)}\n\n{tables.machine()}.")
-    tables.publish("calibration", calibration_text(calibration))
     figures = "\n\n".join(f"![{name}]({name}.png)" for name in ("pareto", "calibration"))
-    page = (MEASURED / "page.md").read_text(encoding="utf-8")
-    (DOCS / "accuracy.md").write_text(page.replace("## Presets", f"{figures}\n\n## Presets", 1), encoding="utf-8")
+    # The page in docs has a heading of its own.
+    _, page = (MEASURED / "page.md").read_text(encoding="utf-8").split("\n\n", 1)
+    page = page.replace("## Presets", f"{figures}\n\n## Presets", 1)
+    tables.publish("accuracy", f"{page.rstrip()}\n\n{tables.machine()}.", "accuracy.md")
     for name in ("pareto", "calibration"):
-        shutil.copy(PROJECT / f"results/figures/{name}.png", DOCS / f"{name}.png")
+        shutil.copy(PROJECT / f"results/figures/{name}.png", tables.DOCS / f"{name}.png")
     for name in ("ladder", "calibration"):
-        shutil.copy(MEASURED / f"{name}.csv", DOCS / f"accuracy_{name}.csv")
+        shutil.copy(MEASURED / f"{name}.csv", tables.DOCS / f"accuracy_{name}.csv")
 
 
 if __name__ == "__main__":

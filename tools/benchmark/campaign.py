@@ -25,6 +25,7 @@ import tables
 
 from rubfric.config.campaign import Campaign, load
 from rubfric.marching import march
+from rubfric.markdown import markdown_table
 from rubfric.results.campaign import collect
 from rubfric.results.dataset import read, write
 from rubfric.results.march import build
@@ -33,7 +34,7 @@ from rubfric.simulation import simulate
 from rubfric.studies.paper.observation import observe
 
 PROJECT = Path(__file__).resolve().parents[2]
-# Stands in for rubfric/runner/jobs.py: a job that only touches its outputs.
+# Replaces rubfric/runner/jobs.py: a job that only touches its outputs.
 TOUCH = """
 from pathlib import Path
 
@@ -176,9 +177,9 @@ def main() -> None:
         ("- drawing every figure once", f"{figures:.1f} s"),
         ("campaign over floor, round by round", ", ".join(f"{ratio:.2f}" for ratio in ratios)),
     ]
-    text = f"{tables.markdown(rows)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
+    text = f"{markdown_table(rows, numeric=True)}\n\n{tables.times(number).capitalize()}. {tables.machine()}."
     print(text)
-    tables.publish("campaign", text)
+    tables.publish("campaign", text, "performance.md")
 
 
 if __name__ == "__main__":

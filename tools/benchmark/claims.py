@@ -1,4 +1,4 @@
-"""Put the verdicts on the paper's claims, which the campaign wrote, into the README."""
+"""Put the verdicts on the paper's claims, which the campaign wrote, into docs/claims.md."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def main() -> None:
     if not TABLE.exists():
         raise SystemExit(f"{TABLE} is missing: run snakemake -j2 first")
     text = claims_text(read_table(TABLE, ("pressure_MPa", "where", "limit", "parts", "note")))
-    tables.publish("claims", text)
+    tables.publish("claims", text, "claims.md")
     print(text)
 
 

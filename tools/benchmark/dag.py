@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 import tables
 import yaml
-from campaign import PROJECT, copy_project
+from campaign import copy_project
 
 from rubfric.config.campaign import Campaign, load
+from rubfric.markdown import markdown_table
 
-PAGE = PROJECT / "docs" / "scaling.md"
 SIZES = (1_000, 10_000, 30_000)
 PRESSURES = 10
 OVERLAY = "many.yaml"
@@ -125,9 +125,10 @@ def main() -> None:
         most = max(cost.memory for cost in costs.values())
         rows.append((f"{scenes:,}".replace(",", " "), *cells, f"{most:.0f} MB"))
         print(rows[-1], {what: f"{cost.wall:.1f} s" for what, cost in costs.items()}, flush=True)
-    text = f"{tables.markdown(rows)}\n\nProcessor time of one run each, start-up included. {tables.machine()}."
+    note = f"Processor time of one run each, start-up included. {tables.machine()}."
+    text = f"{markdown_table(rows, numeric=True)}\n\n{note}"
     print(text)
-    tables.publish("dag", text, PAGE)
+    tables.publish("dag", text, "performance.md")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Time every scene of the paper's grid in this process, start-up excluded: small strain, finite strain and auto.
 
-Beside them stands a bare contact solve, the least that any method needs in small strain: the closed-form compliance
+They are compared with a bare contact solve, the least that any method needs in small strain: the closed-form compliance
 of the layer at 256 surface points and the complementarity problem, without a mesh, fields or energies. All are
 timed scene by scene, in turn, so that their ratios hold on a noisy machine.
 """
@@ -25,6 +25,7 @@ import tables
 
 from rubfric import simulation
 from rubfric.config.campaign import load
+from rubfric.markdown import markdown_table
 from rubfric.mechanics.block.contact import full_contact, solve_contact
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite import newton
@@ -119,13 +120,13 @@ def main() -> None:
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     parts = ", ".join(f"{label} {share:.0%}" for label, share in shares(scenes).items())
     text = (
-        f"{tables.markdown(rows)}\n\n"
+        f"{markdown_table(rows, numeric=True)}\n\n"
         f"{len(scenes)} scenes in each plane, {tables.times(rounds)} of each; small strain takes {ratio:.1f} "
         f"times a bare contact solve; peak memory {memory:.0f} MB. Where the time of finite strain goes: {parts}. "
         f"{tables.machine()}."
     )
     print(text)
-    tables.publish("scenes", text)
+    tables.publish("scenes", text, "performance.md")
 
 
 def written(times: list[float]) -> tuple[str, str, str]:

@@ -1,25 +1,25 @@
-"""Put the outcome of the matrix of stability, which ``snakemake stability`` wrote, into the README."""
+"""Put the outcome of the matrix of stability, which ``snakemake stability`` wrote, into docs/stability.md."""
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
-import pandas as pd
 import tables
 
-from rubfric.studies.stability.cases import cases
-from rubfric.studies.stability.report import markdown, summary
-
-TABLE = Path(__file__).resolve().parents[2] / "results" / "stability" / "stability.csv"
+RESULTS = Path(__file__).resolve().parents[2] / "results"
+PAGE, MAP = RESULTS / "stability" / "stability.md", RESULTS / "figures" / "stability.png"
 
 
 def main() -> None:
-    if not TABLE.exists():
-        raise SystemExit(f"{TABLE} is missing: run snakemake -j2 stability first")
-    table = pd.read_csv(TABLE)
-    tried = "" if len(table) == len(cases()) else f"{len(table)} of the {len(cases())} cases. "
-    text = f"{markdown(summary(table))}\n\n{tried}{tables.machine()}."
-    tables.publish("stability", text)
+    """Copy the page, with the machine that it was measured on, and its map."""
+    if not PAGE.exists():
+        raise SystemExit(f"{PAGE} is missing: run snakemake -j2 stability first")
+    # The page in docs has a heading of its own.
+    _, text = PAGE.read_text(encoding="utf-8").split("\n\n", 1)
+    text = f"{text.rstrip()}\n\n{tables.machine()}."
+    tables.publish("stability", text, "stability.md")
+    shutil.copy(MAP, tables.DOCS)
     print(text)
 
 

@@ -8,7 +8,7 @@ import platform
 import re
 from pathlib import Path
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 
 
 def options(description: str | None, **more: tuple[int, str]) -> argparse.Namespace:
@@ -38,19 +38,22 @@ def machine() -> str:
     return f"{os.cpu_count()} cores ({model}), Python {platform.python_version()}"
 
 
-def markdown(rows: list[tuple[str, ...]]) -> str:
-    """Return a table; the first row holds the headings."""
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    lines.insert(1, "|---" + "|---:" * (len(rows[0]) - 1) + "|")
-    return "\n".join(lines)
+def publish(marker: str, text: str, page: str) -> None:
+    """Replace what is between ``<!-- marker -->`` and ``<!-- /marker -->`` in a page of docs.
 
-
-def publish(marker: str, text: str, place: Path = README) -> None:
-    """Replace what stands between ``<!-- marker -->`` and ``<!-- /marker -->`` in a page, the README by default."""
+    Parameters
+    ----------
+    marker : str
+        Name of the pair of markers.
+    text : str
+        Markdown.
+    page : str
+        Name of the file.
+    """
     begin, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"
-    page = place.read_text(encoding="utf-8")
-    if begin not in page or end not in page:
-        raise SystemExit(f"{place.name} lacks the markers {begin} and {end}")
-    before, rest = page.split(begin, 1)
+    old = (DOCS / page).read_text(encoding="utf-8")
+    if begin not in old or end not in old:
+        raise SystemExit(f"docs/{page} lacks the markers {begin} and {end}")
+    before, rest = old.split(begin, 1)
     after = rest.split(end, 1)[1]
-    place.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
+    (DOCS / page).write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")

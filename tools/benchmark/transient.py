@@ -22,6 +22,7 @@ import tables
 
 from rubfric.config.campaign import load
 from rubfric.marching import march
+from rubfric.markdown import markdown_table
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
@@ -107,12 +108,12 @@ def main() -> None:
     small_rows, small = steps_per_second(campaign.scene(1, 100, 0.5, kinematics="small"), 128, 1.1, 640)
     finite_rows, finite = steps_per_second(campaign.scene(1, 100, 0.5, kinematics="finite"), 64, 1.055, 128)
     text = (
-        f"{tables.markdown(rows)}\n\n"
+        f"{markdown_table(rows, numeric=True)}\n\n"
         f"Median {statistics.median(ratios):.0f}. Steps a second: {small:.0f} in small strain (128 x {small_rows} "
         f"cells), {finite:.0f} in finite strain (64 x {finite_rows} cells). {tables.machine()}."
     )
     print(text)
-    tables.publish("transient", text)
+    tables.publish("transient", text, "performance.md")
 
 
 if __name__ == "__main__":

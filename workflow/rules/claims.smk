@@ -46,7 +46,8 @@ rule reading:
 
 rule claims:
     input:
-        package_files("rubfric.pages.claims", "rubfric.studies.paper.rigevidence"),
+        package_files("rubfric.pages.claims", "rubfric.studies.paper.judge"),
+        page_files("claims"),
         script="workflow/scripts/judge_claims.py",
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
@@ -59,7 +60,7 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"what of the paper stands: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "spreadsheet (CSV)",
             },
         ),
@@ -69,14 +70,14 @@ rule claims:
             caption="../report/claims.rst",
             category=REPORT.answers,
             labels=lambda wildcards, output: {
-                "answer": f"what of the paper stands: {verdicts(output.claims)}",
+                "answer": f"claims of the paper: {verdicts(output.claims)}",
                 "as": "page",
             },
         ),
     log:
         f"{RESULTS}/logs/claims.log",
     params:
-        choice=judged_by(CAMPAIGN),
+        criteria=criteria(CAMPAIGN),
         about={
             AS_CONFIGURED: CAMPAIGN.words(),
             **{name: reading.words() for name, reading in READINGS.items()},

@@ -1,5 +1,6 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
 import hashlib
+import os
 import sys
 from types import SimpleNamespace
 from dataclasses import asdict
@@ -12,7 +13,8 @@ from rubfric.runner import jobs
 from rubfric.config.campaign import load
 from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
+from rubfric.pages.render import assets
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
 from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
@@ -20,7 +22,7 @@ from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
-# Where things stand in the report, which sorts by name.
+# Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
     figures="2 Figures of the paper",
@@ -69,10 +71,15 @@ if workflow.remote_exec:
 
 
 def package_files(*modules):
-    """Return a file that stands for the package's files behind some modules: a job that lists it reruns when the content
+    """Return a file that represents the package's files behind some modules: a job that lists it reruns when the content
     of one of them changes.
     """
     return stamp(".snakemake/sources", *modules)
+
+
+def page_files(page):
+    """Return the templates, styles and scripts that a page is made of beside its code."""
+    return [os.path.relpath(path) for path in assets(page)]
 
 
 def scene_file(name):
@@ -97,12 +104,12 @@ def pictures(figure, caption, shows, category=REPORT.figures):
     """
 
     def labels(form):
-        def told(wildcards):
+        def described(wildcards):
             name = figure.format(**dict(wildcards.items()))
             words = shows(wildcards) if callable(shows) else shows
             return {"figure": name.replace("fig", "Fig. "), "shows": words, "as": form}
 
-        return told
+        return described
 
     return {
         kind: report(
@@ -135,9 +142,9 @@ def batches_by_speed(scenes):
     return batches
 
 
-def judged_by(campaign):
+def criteria(campaign):
     """Return what the verdicts on the paper's claims depend on, besides results."""
-    fields = campaign.figures
+    fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
         "studied": list(campaign.aspect_study.pressures),
@@ -149,7 +156,7 @@ def judged_by(campaign):
         },
         "difference": campaign.claims.difference,
         "saturation": campaign.transient.saturation,
-        "total_pressure": fields.total_pressure,
+        "total_pressure": campaign.figures.total_pressure,
     }
 
 

@@ -1,6 +1,4 @@
 # One page to explore the campaign in a browser: the grid's scenes, without the other ratios of the study.
-from rubfric.pages.explorer.assets import assets
-
 EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
 }
@@ -9,7 +7,7 @@ EXPLORED = {
 rule explorer:
     input:
         package_files("rubfric.pages.explorer.data", "rubfric.pages.explorer.page"),
-        [os.path.relpath(path) for path in assets()],
+        page_files("explorer"),
         script="workflow/scripts/build_explorer.py",
         campaign=rules.campaign.output[0],
         scenes=[scene_file(name) for name in EXPLORED],

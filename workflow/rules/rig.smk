@@ -4,7 +4,9 @@ RIG_TABLES = [f"{RESULTS}/tables/{name}.csv" for name in ("rig_points", "rig_rej
 
 rule rig_points:
     input:
-        package_files("rubfric.rig.virtual", "rubfric.rig.summary", "rubfric.results.tables"),
+        package_files(
+            "rubfric.rig.virtual", "rubfric.rig.summary", "rubfric.results.tables"
+        ),
         script="workflow/scripts/measure_rig.py",
         campaign=rules.campaign.output[0],
         measured=RIG_FILES,
@@ -26,7 +28,7 @@ rule rig_points:
     log:
         f"{RESULTS}/logs/tables/rig_points.log",
     params:
-        rig=asdict(CAMPAIGN.rig),
+        rig=CAMPAIGN.rig.model_dump(),
         aspect=CAMPAIGN.aspect,
     message:
         "Test rig: {output.points}"

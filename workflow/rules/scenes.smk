@@ -1,4 +1,4 @@
-# One job per scene. All that a scene depends on stands in its params and in the package files it lists.
+# One job per scene. All that a scene depends on is in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
 DIGESTS = [scene.digest for scene in SCENES.values()]
 
@@ -33,7 +33,7 @@ rule campaign:
             category=REPORT.fields,
             labels={"data": "scalars of every scene (netCDF)"},
         ),
-        # Other scenes, another name: the collection is checked anew even where Snakemake has lost its memory.
+        # Other scenes, another name: the collection is checked again even where Snakemake has lost its memory.
         mark=f"{RESULTS}/collected/{fingerprint(DIGESTS)}",
     log:
         f"{RESULTS}/logs/campaign.log",

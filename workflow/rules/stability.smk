@@ -60,7 +60,7 @@ rule stability_table:
 rule stability_figure:
     input:
         package_files("rubfric.figures.stability"),
-        script="workflow/scripts/draw_stability.py",
+        script="workflow/scripts/draw_table_figure.py",
         table=rules.stability_table.output.table,
     output:
         **pictures(
@@ -74,7 +74,13 @@ rule stability_figure:
     message:
         "Drawing the map of stability"
     run:
-        jobs.run(input.script, log[0], table=input.table, outputs=list(output))
+        jobs.run(
+            input.script,
+            log[0],
+            figure="stability",
+            table=input.table,
+            outputs=list(output),
+        )
 
 
 rule stability:

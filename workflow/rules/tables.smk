@@ -8,6 +8,7 @@ TABLES = [
 rule scale_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
+        page_files("table"),
         script="workflow/scripts/tabulate_scale.py",
         campaign=rules.campaign.output[0],
     output:
@@ -43,6 +44,7 @@ rule scale_table:
 rule total_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
+        page_files("table"),
         script="workflow/scripts/tabulate_total.py",
         campaign=rules.campaign.output[0],
     output:

@@ -7,9 +7,16 @@ from rubfric.results.dataset import write
 
 
 def main(output: str, scenes: list[str], digests: list[str], mark: str) -> None:
-    """Gather the results in the files ``scenes``, of these digests, into the netCDF file ``output``.
+    """Write the collection.
 
-    The empty file ``mark``, alone in its folder, says which scenes those were.
+    Parameters
+    ----------
+    output : str
+        Path of the collection (netCDF).
+    scenes, digests : list of str
+        Paths of results (netCDF), and the digests that they must have.
+    mark : str
+        Path of an empty file, alone in its folder, whose name represents these digests.
     """
     collected = collect(scenes, digests)
     for other in Path(mark).parent.iterdir():

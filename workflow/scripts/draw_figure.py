@@ -15,9 +15,20 @@ def main(
     outputs: list[str],
     digests: list[str] | None = None,
 ) -> None:
-    """Draw ``rubfric.figures.<figure>`` with the arguments ``choice`` and save it under every path of ``outputs``.
+    """Draw the figure and save it under every path of ``outputs``.
 
-    It is drawn from the campaign's file or from several results, whose digests are given then.
+    Parameters
+    ----------
+    figure : str
+        Module of ``rubfric.figures``.
+    results : str or list of str
+        Path of the collection of all scenes, or paths of single results (netCDF).
+    choice : dict
+        Further arguments of the module's ``draw``.
+    outputs : list of str
+        Paths; their endings choose the formats.
+    digests : list of str, optional
+        Digests that single results must have.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
     if isinstance(results, str):

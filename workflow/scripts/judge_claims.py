@@ -4,17 +4,13 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
 from rubfric.pages.claims import claims_page
-from rubfric.pages.table import write_page
+from rubfric.pages.render import write_page
 from rubfric.results.campaign import read
 from rubfric.results.dataset import load
 from rubfric.results.tables import read_table, write_table
-from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
-from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
-from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
-from rubfric.studies.paper.verdicts import EVERY, claims_table, evidence_table
+from rubfric.studies.paper.judge import Criteria, judge
+from rubfric.studies.paper.verdicts import EVERY
 
 
 def main(
@@ -24,7 +20,7 @@ def main(
     marches: list[str],
     points: str,
     readings: dict[str, list[str]],
-    choice: dict[str, Any],
+    criteria: dict[str, Any],
     about: dict[str, str],
 ) -> None:
     """Write the verdicts, the evidence and the page.
@@ -33,39 +29,27 @@ def main(
     ----------
     outputs : dict
         Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
-    campaign, profiles, marches : str and lists of str
-        The collection of all scenes, results of those whose depth is looked at, and marches.
-    points : str
-        Table of the points of the test rig.
+    campaign, profiles, marches, points : str or list of str
+        Paths of the collection of all scenes, of scenes and marches (netCDF), and of the table of the test rig (CSV).
     readings : dict of str to list of str
-        Observations of each other reading.
-    choice : dict
-        ``aspect``, ``studied``, ``profiled``, ``difference``, ``saturation``, ``total_pressure``.
+        Paths of the observations (CSV) of each other reading.
+    criteria : dict
+        The parameters of ``Criteria``.
     about : dict of str to str
         Every reading in words.
     """
-    difference, profiled = choice["difference"], choice["profiled"]
-    common = {name: choice[name] for name in ("aspect", "studied", "difference")}
-    rig = read_table(points, ("run", "kind", "source"))
-    evidence = {
-        AS_CONFIGURED: [
-            *gather(read(campaign), **common),
-            *depth_evidence(table(profile_row(load(path)) for path in profiles), difference),
-            *(march_evidence(load(path), choice["saturation"]) for path in marches),
-            *rig_evidence(rig),
-        ]
-    }
-    notes = {AS_CONFIGURED: {"C5": march_note(evidence[AS_CONFIGURED]), "C8": rig_note(rig)}}
-    for reading, paths in readings.items():
-        rows = pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
-        evidence[reading] = [
-            *gather(over_axes(rows), **common),
-            *depth_evidence(rows[among(rows, profiled)], difference),
-        ]
-        notes[reading] = dict.fromkeys(CLAIMS, refusals(rows))
-    claims = claims_table(evidence, choice["total_pressure"], notes)
-    numbers = evidence_table(evidence)
-    write_table(numbers, outputs["evidence"])
+    claims, evidence = judge(
+        read(campaign),
+        map(load, profiles),
+        map(load, marches),
+        read_table(points, ("run", "kind", "source")),
+        {
+            reading: pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
+            for reading, paths in readings.items()
+        },
+        Criteria(**criteria),
+    )
+    write_table(evidence, outputs["evidence"])
     write_table(claims, outputs["claims"])
-    write_page(claims_page(claims, numbers, about), outputs["page"])
+    write_page(claims_page(claims, evidence, about), outputs["page"])
     print(claims[claims["pressure_MPa"] == EVERY][["claim", "reading", "verdict", "parts"]].to_string(index=False))

@@ -17,17 +17,26 @@ from rubfric.simulation import simulate
 
 
 def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> None:
-    """March the scene of ``parameters`` through ``procedure`` into the netCDF file ``output``.
+    """March and write the result.
 
-    A march that was killed goes on from its checkpoint, a hidden file beside the output, if it is of the same config
+    A march that was killed continues from its checkpoint, a hidden file beside the output, if it is of the same config
     and of the same code.
+
+    Parameters
+    ----------
+    output : str
+        Path of the march (netCDF).
+    parameters : dict
+        Those of the ``Scene``.
+    procedure : dict
+        Those of the ``Procedure``.
     """
     scene = Scene.from_parameters(parameters)
     place = Path(output)
     checkpoint = checkpoint_of(place)
     for left in place.parent.glob(f".{glob.escape(place.name)}*.checkpoint"):
         if left != checkpoint:
-            print(f"{left} was left by other code; beginning afresh", flush=True)
+            print(f"{left} is the checkpoint of other code; starting from the beginning", flush=True)
             left.unlink()
     steady = float(simulate(scene)["friction_coefficient"])
 
@@ -36,8 +45,8 @@ def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> 
 
     try:
         found = go()
-    except BrokenResult as error:  # left by a march of another config, or damaged: of no use
-        print(f"{error}; beginning afresh", flush=True)
+    except BrokenResult as error:  # of a march of another config, or damaged
+        print(f"{error}; starting from the beginning", flush=True)
         checkpoint.unlink()
         found = go()
     write(build(found, steady), output)
@@ -46,6 +55,6 @@ def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> 
 
 
 def checkpoint_of(output: Path) -> Path:
-    """Return where a march leaves its state: other code, another name."""
+    """Return where a march of this code keeps its state; other code has another name."""
     code = hashlib.sha256(b"".join(path.read_bytes() for path in sources("rubfric.marching"))).hexdigest()[:16]
     return output.with_name(f".{output.name}.{code}.checkpoint")

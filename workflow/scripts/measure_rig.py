@@ -1,6 +1,6 @@
 """Reduce measured runs of the rig to friction over speed and pressure; without any, those of the virtual rig."""
 
-from rubfric.config.rigchoice import RigChoice, read_rig
+from rubfric.config.models import RigChoice
 from rubfric.results.campaign import read
 from rubfric.results.friction_map import FrictionMap
 from rubfric.results.tables import write_table
@@ -12,7 +12,7 @@ from rubfric.rig.virtual import measure, parts_of, plan, targets
 
 def main(points: str, rejected: str, campaign: str, aspect: float, rig: dict[str, object]) -> None:
     """Write the CSV tables ``points`` and ``rejected``; ``rig`` is that of the config, ``campaign`` its netCDF file."""
-    choice = read_rig(rig)
+    choice = RigChoice.read("rig", rig)
     if choice.data:
         runs = reduce_files(choice.data, read_settings(choice.columns))
     else:

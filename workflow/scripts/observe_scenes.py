@@ -8,7 +8,15 @@ from rubfric.studies.paper.observation import observe, table
 
 
 def main(output: str, scenes: dict[str, dict[str, Any]]) -> None:
-    """Write one row per scene as a CSV table; a scene that is refused has its reason."""
+    """Write one row per scene; a scene that is refused has its reason.
+
+    Parameters
+    ----------
+    output : str
+        Path of the table (CSV).
+    scenes : dict
+        Parameters of each ``Scene`` by its name.
+    """
     rows = []
     for name, parameters in scenes.items():
         rows.append(observe(Scene.from_parameters(parameters)))

@@ -9,7 +9,15 @@ from rubfric.simulation import simulate
 
 
 def main(output: str, parameters: dict[str, Any]) -> None:
-    """Simulate the scene that ``parameters`` describe into the netCDF file ``output``."""
+    """Simulate the scene and write its result.
+
+    Parameters
+    ----------
+    output : str
+        Path of the result (netCDF).
+    parameters : dict
+        Those of the ``Scene``.
+    """
     result = simulate(Scene.from_parameters(parameters))
     write(result, output)
     print(summary(result))

@@ -1,19 +1,30 @@
 """Write the table of one scale."""
 
-from rubfric.pages.table import table_page, write_page
+from rubfric.pages.render import write_page
+from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
 from rubfric.results.tables import scale_table, write_table
 
 
 def main(output: str, page: str, campaign: str, scale: int) -> None:
-    """Write all scenes of ``scale`` in the campaign's file to the CSV file ``output`` and the HTML file ``page``."""
+    """Write all scenes of one scale.
+
+    Parameters
+    ----------
+    output, page : str
+        Paths of the table as CSV and as HTML.
+    campaign : str
+        Path of the collection of all scenes (netCDF).
+    scale : int
+        The scale, 1 being the coarsest.
+    """
     gathered = read(campaign)
     table = scale_table(gathered, scale)
     write_table(table, output)
     amplitude, wavenumber = (float(gathered[name].sel(scale=scale)) for name in ("amplitude", "wavenumber"))
     words = (
         f"Every scene on the scale of {amplitude:g} mm amplitude and {wavenumber:g}/mm wavenumber, a row each. "
-        "Friction by three routes, its estimated absolute error, and what the scene rests on; warnings counts what "
-        "its log tells to know before trusting it."
+        "Friction by three routes, its estimated absolute error, mesh and contact; warnings is the number of warnings "
+        "in the log of the scene."
     )
     write_page(table_page(table, f"Friction on scale {scale}", words, group="pressure_MPa"), page)

@@ -1,4 +1,4 @@
-"""Join the batches of the matrix of stability in one table, and say in words what came out."""
+"""Join the batches of the matrix of stability in one table, and describe the outcome."""
 
 from pathlib import Path
 
@@ -11,7 +11,15 @@ from rubfric.studies.stability.report import page as described
 
 
 def main(table: str, page: str, batches: list[str]) -> None:
-    """Write the CSV file ``table``, in the order of the matrix, and the Markdown file ``page`` from CSV ``batches``."""
+    """Write the table, in the order of the matrix, and the page.
+
+    Parameters
+    ----------
+    table, page : str
+        Paths of the table (CSV) and of the page (Markdown).
+    batches : list of str
+        Paths of the batches (CSV).
+    """
     joined = pd.concat([pd.read_csv(batch) for batch in batches]).set_index("case")
     joined = joined.loc[[case.name for case in cases()]].reset_index()
     write_table(joined, table)

@@ -1,4 +1,4 @@
-"""Try some cases of the matrix of stability, each in a process of its own, and write what became of them."""
+"""Try some cases of the matrix of stability, each in a process of its own, and write their outcomes."""
 
 from typing import Any
 
@@ -11,7 +11,15 @@ from rubfric.studies.stability.trial import confined
 
 
 def main(output: str, cases: list[dict[str, Any]]) -> None:
-    """Try ``cases``, each the parameters of a ``Case``, and write one row for each to the CSV file ``output``."""
+    """Try the cases and write one row for each.
+
+    Parameters
+    ----------
+    output : str
+        Path of the table (CSV).
+    cases : list of dict
+        Parameters of each ``Case``.
+    """
     rows = []
     for parameters in cases:
         case = Case(**parameters)

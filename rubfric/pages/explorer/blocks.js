@@ -205,7 +205,7 @@ function blockPlot(picture, scale, frame, colours, energies, width) {
   return { traces, layout: blockLayout(picture, frame, field, width) };
 }
 
-/** Some of the nodes, unseen, that tell their energy. */
+/** Some of the nodes, invisible, that show their energy under the pointer. */
 function hoverNodes(picture, frame) {
   const found = { x: [], y: [], text: [] };
   for (let row = 0; row < picture.rows; row += 2) {

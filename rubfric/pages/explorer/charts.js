@@ -20,8 +20,8 @@ function translucent(colour, opacity) {
   return `rgba(${[1, 3, 5].map((from) => parseInt(colour.slice(from, from + 2), 16)).join(",")},${opacity})`;
 }
 
-/** What hovering over a point tells. */
-function told(data, place, pressure, speed) {
+/** The words at a point under the pointer. */
+function pointWords(data, place, pressure, speed) {
   const curve = data.curves[place];
   const friction = curve.friction[pressure][speed], error = curve.error[pressure][speed];
   const lines = [`${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[pressure])}`];
@@ -65,7 +65,7 @@ function speedAxis(speeds) {
   };
 }
 
-/** Labels of places that stand for speeds; every other one where there is no room for all. */
+/** Labels of places that represent speeds; every other one where there is no room for all. */
 function speedLabels(speeds, width) {
   const step = Math.ceil(38 / Math.max(1, (width - 90) / speeds.length));
   return speeds.map((speed, place) => (place % step === 0 ? plain(speed) : ""));
@@ -93,7 +93,7 @@ function curvesPlot(data, chosen) {
       marker: { symbol: SYMBOLS[pressure % SYMBOLS.length], size: strong ? 10 : 8, color: colour, line: { width: 1.5, color: colour } },
       error_y: { array: error.map((value) => value ?? 0), color: colour, thickness: 1.2, width: 3 },
       customdata: data.speeds.map((_, speed) => [pressure, speed]),
-      text: data.speeds.map((_, speed) => told(data, chosen.place, pressure, speed)), hovertemplate: "%{text}<extra></extra>",
+      text: data.speeds.map((_, speed) => pointWords(data, chosen.place, pressure, speed)), hovertemplate: "%{text}<extra></extra>",
     });
     const { kind, at } = curve.peaks[pressure];
     if (kind === "peak") {
@@ -139,7 +139,7 @@ function mapPlot(data, chosen, width) {
     type: "heatmap", x: speeds, y: pressures, z: curve.friction, zmin: 0, zmax: highestOf(curve), xgap: 2, ygap: 2, hoverongaps: false,
     colorscale: stops.map((stop, place) => [place / (stops.length - 1), stop]),
     customdata: pressures.map((pressure) => speeds.map((speed) => [pressure, speed])),
-    text: pressures.map((pressure) => speeds.map((speed) => told(data, chosen.place, pressure, speed))),
+    text: pressures.map((pressure) => speeds.map((speed) => pointWords(data, chosen.place, pressure, speed))),
     hovertemplate: "%{text}<extra></extra>", texttemplate: roomy ? "%{z:.3f}" : "", textfont: { size: roomy ? 12 : 10 },
     colorbar: { thickness: 10, outlinewidth: 0, title: { text: "μ" }, tickformat: ".3~g", len: 1, x: 1.01, xpad: 6 },
   };
@@ -177,7 +177,7 @@ function barsPlot(data, chosen, width) {
     x: places, y: total.friction[chosen.pressure], mode: "markers", marker: { opacity: 0 }, showlegend: false, name: "total",
     error_y: { array: total.error[chosen.pressure].map((value) => value ?? 0), color: "#1d2129", thickness: 1.5, width: 5 },
     customdata: places.map((speed) => [chosen.pressure, speed]),
-    text: places.map((speed) => told(data, "total", chosen.pressure, speed)), hovertemplate: "%{text}<extra></extra>",
+    text: places.map((speed) => pointWords(data, "total", chosen.pressure, speed)), hovertemplate: "%{text}<extra></extra>",
   };
   return {
     traces: [...bars, sums],

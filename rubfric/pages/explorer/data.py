@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
-from rubfric.pages.explorer.peaks import find_peak
 from rubfric.pages.explorer.pictures import Store, picture
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import check_variables, find_peak, position
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
-# What is told of every scene: variable, name in the page.
+# Numbers of every scene: variable, name in the page.
 _SCALARS = {
     _FRICTION: "friction",
     _ERROR: "error",
@@ -36,8 +36,8 @@ _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
 # Most nodes of a picture, over the height and along a wavelength, and the fewest; of how many pictures the most are
 # kept, so that the page stays below 10 MB.
 _MOST, _FEWEST, _ROOM = (28, 128), (12, 32), 400
-# Per cent of the scenes whose faintest parts the scale of energies leaves out, and its least length in decades.
-_FAINTEST, _LENGTH = 10.0, 0.5
+# Per cent of the scenes whose lowest energies the common scale leaves out, and its least length in decades.
+_LOWEST, _LENGTH = 10.0, 0.5
 
 
 def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, road: str) -> dict[str, Any]:
@@ -88,15 +88,8 @@ def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, 
 
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     """Return the campaign at one ratio, over scale, pressure and speed, without those of which nothing was run."""
-    lacking = [name for name in (*_SCALARS, "amplitude", "wavenumber") if name not in campaign]
-    if lacking:
-        raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
-    known = np.asarray(campaign["aspect"].values, dtype=np.float64)
-    found = np.flatnonzero(np.isclose(known, aspect, rtol=1e-9, atol=0.0))
-    if not found.size:
-        listed = ", ".join(f"{number:.12g}" for number in np.sort(known))
-        raise InvalidInput(f"the height-to-width ratio {aspect:g} is not in the campaign, which has {listed}")
-    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=int(found[0]), drop=True)
+    check_variables(campaign, *_SCALARS, "amplitude", "wavenumber")
+    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=position(campaign, "aspect", aspect), drop=True)
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
@@ -132,7 +125,7 @@ def _curves(grid: xr.Dataset) -> dict[str, Any]:
 
 def _curve(friction: xr.DataArray, error: xr.DataArray) -> dict[str, Any]:
     pairs = zip(friction.values, error.values, strict=True)
-    peaks = [find_peak(*pair) for pair in pairs]
+    peaks = [find_peak(*pair)._asdict() for pair in pairs]
     return {"friction": _plain(friction.values), "error": _plain(error.values), "peaks": peaks}
 
 
@@ -163,13 +156,13 @@ def _pictures(
     for result in results:
         scene = _found(result, axes, scenes, aspect)
         made = picture(result, *most)
-        low.append(made.about["faint"])
+        low.append(made.about["floor"])
         high.append(made.about["energy"][1])
         scene["picture"] = store.add(made)
         scene["reason"] = result.attrs["kinematics_reason"]
         scene["warnings"] = [sentence for sentence in result.attrs["warnings"].split("\n") if sentence]
     top = max(high, default=0.0)
-    return store.packed(), [min(float(np.percentile(low, _FAINTEST)) if low else -3.0, top - _LENGTH), top]
+    return store.packed(), [min(float(np.percentile(low, _LOWEST)) if low else -3.0, top - _LENGTH), top]
 
 
 def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float) -> dict[str, Any]:

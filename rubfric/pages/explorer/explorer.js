@@ -103,7 +103,7 @@ function showControls() {
   }
   byId("speed").value = chosen.speed;
   byId("speed").setAttribute("aria-valuetext", speedOf(data.speeds[chosen.speed]));
-  byId("speed-told").textContent = speedOf(data.speeds[chosen.speed]);
+  byId("speed-value").textContent = speedOf(data.speeds[chosen.speed]);
 }
 
 // ---- Words and numbers ----
@@ -130,7 +130,7 @@ function showWords() {
   byId("peak").textContent = peakWords(curve, pressure, data.pressures, data.speeds);
   byId("marks").textContent = marksWords(curve, chosen.view);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
-  byId("told-title").textContent = place === "total" ? "What the scales add up to" : "The numbers of this scene";
+  byId("numbers-title").textContent = place === "total" ? "What the scales add up to" : "The numbers of this scene";
   byId("headline").replaceChildren(friction === null ? "Not run" : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
   byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}`;
   const keys = "Left and right arrows choose the speed, up and down arrows the pressure.";

@@ -9,12 +9,23 @@ from plotly import colors
 
 # Ordered curves run over the same part of the same map as in the figures: its lightest quarter is too pale on white.
 _ORDERED, _LIGHTEST = "Plasma", 0.76
-# Scales are added up, so that they have to be told apart more than ordered: the kinds of the figures.
+# Scales are added up, so that they need distinct colours more than ordered ones: the kinds of the figures.
 _SCALES = ("#332288", "#cc6677", "#117733", "#ddaa33", "#88ccee", "#882255", "#44aa99", "#999933", "#aa4499")
 
 
 def palette(pressures: int, scales: int) -> dict[str, Any]:
-    """Return the colours of so many pressures and scales, and the stops of the two maps, each even from low to high."""
+    """Return the colours of pressures and scales, and evenly spaced stops of the two maps, from low to high.
+
+    Parameters
+    ----------
+    pressures, scales : int
+        How many of them.
+
+    Returns
+    -------
+    dict
+        ``pressures``, ``scales``, ``energy`` and ``friction``: hexadecimal colours.
+    """
     places = np.linspace(0.0, _LIGHTEST, pressures).tolist()
     ordered = colors.sample_colorscale(_ORDERED, places, colortype="tuple")
     return {

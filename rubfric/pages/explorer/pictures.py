@@ -18,14 +18,14 @@ Array = NDArray[np.float64]
 
 # What a picture needs of a result.
 NEEDED = (*VARIABLES, "surface_position", "contact_pressure")
-# Numbers are told in steps of the range they span.
+# Numbers are stored in steps of the range that they span.
 STEPS = 65535
 # Width of the picture in wavelengths, and the points of the contact that it keeps.
 _WIDTH, _TOUCHING = 1.25, 240
 # Density is drawn on a logarithmic scale; below this share of a scene's largest there is nothing to see.
-_FAINT = 1e-7
-# The faintest nodes, in per cent, would take most of that scale.
-_FAINTEST = 3.0
+_NEGLIGIBLE = 1e-7
+# Share of the nodes, in per cent, with the lowest density, which would take most of that scale.
+_LOWEST = 3.0
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Picture:
     ----------
     about : dict
         ``finite``; ``rows`` and ``columns`` of nodes; ``net``, the numbers of points of its lines; ``touching``, the
-        number of points of the contact; ``faint``, below which the faintest of the energies lie. ``x``, ``y`` (mm),
+        number of points of the contact; ``floor``, below which the lowest of the energies lie. ``x``, ``y`` (mm),
         ``energy`` (decimal logarithm of MPa) and ``pressure`` (MPa): lowest and highest value of each.
     values : numpy.ndarray of uint16
         Abscissae, heights and energies of the nodes, row by row; abscissae and heights of the net; abscissae and
@@ -92,7 +92,7 @@ def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
     across = _evenly(block.x.shape[1], round(_WIDTH * columns))
     up = _evenly(block.x.shape[0], rows)
     x, y, density = (grid[np.ix_(up, across)] for grid in (block.x, block.y, block.density))
-    energy = np.log10(np.maximum(density, max(_FAINT * float(density.max()), np.finfo(np.float64).tiny)))
+    energy = np.log10(np.maximum(density, max(_NEGLIGIBLE * float(density.max()), np.finfo(np.float64).tiny)))
     net = [line[:, _evenly(line.shape[1], max(rows, columns))] for line in _inside(block, left, right)]
     touching, pressure = _contact(result, left, right)
     sheets = [np.concatenate([grid.ravel(), *(line[place] for line in net)]) for place, grid in enumerate((x, y))]
@@ -105,7 +105,7 @@ def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
         "columns": across.size,
         "net": [line.shape[1] for line in net],
         "touching": touching.size,
-        "faint": float(np.percentile(energy, _FAINTEST)),
+        "floor": float(np.percentile(energy, _LOWEST)),
     }
     values = np.concatenate([_whole(part.ravel(), *spans[name]) for part, name in parts])
     return Picture(about | {name: list(span) for name, span in spans.items()}, values)
@@ -118,7 +118,7 @@ def stretch(result: xr.Dataset) -> tuple[float, float]:
 
 
 def _evenly(size: int, most: int) -> NDArray[np.intp]:
-    """Return at most so many places out of ``size``, evenly, the ends among them."""
+    """Return at most ``most`` places out of ``size``, evenly spaced, both ends included."""
     return np.unique(np.linspace(0, size - 1, min(size, max(most, 2))).round().astype(np.intp))
 
 

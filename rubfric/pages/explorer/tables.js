@@ -3,8 +3,8 @@
 
 /** One number of the list, with a remark. */
 function entry(term, value, remark = "", wide = false) {
-  const told = element("dd", {}, value, " ", element("small", {}, remark));
-  return element("div", wide ? { class: "wide" } : {}, element("dt", {}, term), told);
+  const shown = element("dd", {}, value, " ", element("small", {}, remark));
+  return element("div", wide ? { class: "wide" } : {}, element("dt", {}, term), shown);
 }
 
 /** The numbers of one scene, and why its kinematics were chosen. */

@@ -12,7 +12,7 @@ function plain(value) {
   return fraction ? `${grouped}.${fraction}` : grouped;
 }
 
-/** A number with so many digits that count. */
+/** A number with this many significant digits. */
 function rounded(value, digits = 3) {
   if (value === null) return "unknown";
   const text = value.toPrecision(digits);
@@ -87,7 +87,7 @@ function peakWords(curve, pressure, pressures, speeds) {
     },
     rising: () => `${here} there is no peak: friction is still rising at ${there}, the fastest speed run (${highest}).`,
     falling: () => `${here} there is no peak: friction is highest at ${there}, the slowest speed run (${highest}).`,
-    level: () => `${here} no peak can be named: the highest, ${highest} at ${there}, cannot be told from an end of the curve.`,
+    level: () => `${here} no peak can be named: the highest, ${highest} at ${there}, cannot be distinguished from an end of the curve.`,
     few: () => `${here} there are too few speeds to name a peak; the highest is ${highest} at ${there}.`,
   };
   return said[kind]() + gaps;

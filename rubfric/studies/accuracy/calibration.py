@@ -1,6 +1,6 @@
-"""Whether estimated errors of friction can be trusted: beside the true ones, on scenes drawn at random.
+"""Whether estimated errors of friction can be trusted: compared with the true ones on scenes drawn at random.
 
-An estimate is good where it covers the true error, and not much larger than it.
+An estimate is good where it covers the true error and is not much larger.
 """
 
 from __future__ import annotations
@@ -12,11 +12,12 @@ from typing import Any
 import pandas as pd
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 from rubfric.studies.accuracy.converged import Converged, converge
 
-# Share of scenes whose error an estimate has to cover, and how many times the error it may be, at the median.
+# Share of scenes whose true error the estimate must cover, and the largest allowed median of estimate over error.
 COVERAGE, EXCESS = 0.95, 10.0
 
 _COLUMNS = (
@@ -34,6 +35,16 @@ def calibrate(name: str, kind: str, scene: Scene, presets: Mapping[str, Numerics
     ----------
     name, kind : str
         Name of the scene and of the set that it belongs to.
+    scene : Scene
+    presets : mapping of str to Numerics
+        By name; each replaces the numerics of the scene.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns scene, set, preset, kinematics, plane, velocity (mm/s), pressure (MPa), aspect, slope, wavelength (mm),
+        friction_coefficient, reference, reference_error (absolute), error and estimate (relative to the reference),
+        covered, ratio (estimate over true error), note.
     """
     about = {
         "scene": name,
@@ -86,8 +97,8 @@ def _judged(row: dict[str, Any], reference: Converged) -> dict[str, Any]:
     }
 
 
-def climbed(ladder: pd.DataFrame) -> pd.DataFrame:
-    """Return the same rows for the presets on a ladder (``rubfric.studies.accuracy.ladder``), as the set ``ladder``."""
+def preset_rows(ladder: pd.DataFrame) -> pd.DataFrame:
+    """Return the presets of a ladder (``rubfric.studies.accuracy.ladder``) as rows of ``calibrate``, set ``ladder``."""
     chosen = ladder[ladder["knob"] == "preset"].copy()
     chosen["set"], chosen["preset"] = "ladder", chosen["rung"]
     chosen["covered"] = chosen["error"] <= chosen["estimate"]
@@ -96,7 +107,7 @@ def climbed(ladder: pd.DataFrame) -> pd.DataFrame:
     return chosen.reindex(columns=list(_COLUMNS))
 
 
-def verdict(table: pd.DataFrame) -> pd.DataFrame:
+def coverage_table(table: pd.DataFrame) -> pd.DataFrame:
     """Return how well the estimates hold, for each set and for all of them.
 
     Returns

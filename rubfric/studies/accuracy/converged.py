@@ -1,7 +1,7 @@
-"""Friction that others are judged by: three meshes of one family, each finer than the default, and their extrapolation.
+"""Reference friction: three meshes of one family, each finer than the default, and their extrapolation.
 
-The bound on its error counts what the finest mesh changed, what extrapolation adds, and how far the routes to
-friction are apart on the finest mesh. Branches are not folded, and finite strain is solved to round-off.
+The bound on its error counts the change on the finest mesh, what extrapolation adds, and the difference between the
+routes to friction on the finest mesh. No branch is left out, and finite strain is solved to round-off.
 """
 
 from __future__ import annotations
@@ -9,25 +9,25 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.finite.steady import FiniteSolver
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.refinement import steps_to
 from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
 from rubfric.mechanics.theory.kinematics import decide
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
-# Fineness of the three meshes (``rubfric.config.presets``).
+# Fineness of the three meshes (``scene.numerics``).
 _FINENESS = {"small": (2.0, 3.0, 4.5), "finite": (1.4, 2.0, 2.8)}
-# Order by which three meshes that approach a limit steadily are extrapolated: the least that is observed there.
+# Order of the extrapolation of three meshes that converge monotonically: the lowest that is observed.
 _ORDER = 2.0
 _BASE = Numerics(**fineness(1.0), refinements=0, folding=0.0, tolerance=1e-9, columns_max=65536)
 
 
 @dataclass(frozen=True)
 class Converged:
-    """The friction coefficient of a scene, and what it may be wrong by.
+    """The friction coefficient of a scene, and a bound on its error.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Converged:
 
 
 def converge(scene: Scene) -> Converged:
-    """Return the friction of a scene of the model that it asks for: finite strain, unless it asks for small strain.
+    """Return the reference friction of a scene: in finite strain, unless it asks for small strain.
 
     Raises
     ------
@@ -83,6 +83,6 @@ def _limit(found: list[Friction]) -> tuple[float, float]:
     routes = abs(found[-1].stress_power - found[-1].contact)
     before, last = second - first, third - second
     limit = third
-    if 0.0 < last * before < before * before:  # steadily nearer
+    if 0.0 < last * before < before * before:  # converges monotonically
         limit += last / (1.45**_ORDER - 1.0)
     return limit, max(abs(last), abs(limit - third), 0.5 * routes) + found[-1].resolution

@@ -1,4 +1,4 @@
-"""What a computation costs: wall time, and the most memory that its process held."""
+"""What a computation costs: wall time, and the peak memory of its process."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from typing import Generic, TypeVar
 
 Result = TypeVar("Result")
 
-# Linux forgets the most memory held when a 5 is written to the first of these, and tells it in the second.
-_FORGET, _STATUS = Path("/proc/self/clear_refs"), Path("/proc/self/status")
+# Linux resets the peak of the resident memory when a 5 is written to the first of these; the second holds it.
+_RESET, _STATUS = Path("/proc/self/clear_refs"), Path("/proc/self/status")
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Measured(Generic[Result]):
     seconds : float
         Wall time, the least of all repetitions.
     memory : float
-        Most memory that the process held meanwhile, MB (where the system cannot forget: since it began).
+        Peak resident memory meanwhile, MB (since the process began, where the system cannot reset it).
     """
 
     result: Result
@@ -36,8 +36,18 @@ class Measured(Generic[Result]):
 
 
 def measure(compute: Callable[[], Result], least: float = 0.0, most: int = 1) -> Measured[Result]:
-    """Compute, again and again until ``least`` seconds have passed or ``most`` times, and measure."""
-    _forget()
+    """Repeat a computation and measure it.
+
+    Parameters
+    ----------
+    compute : callable
+        Without arguments.
+    least : float
+        Time to spend on repetitions at least, s, unless ``most`` is reached.
+    most : int
+        Largest number of repetitions.
+    """
+    _reset_peak()
     spent: list[float] = []
     while not spent or (len(spent) < most and sum(spent) < least):
         started = time.perf_counter()
@@ -46,9 +56,9 @@ def measure(compute: Callable[[], Result], least: float = 0.0, most: int = 1) ->
     return Measured(result, min(spent), _peak())
 
 
-def _forget() -> None:
+def _reset_peak() -> None:
     try:
-        _FORGET.write_text("5", encoding="ascii")
+        _RESET.write_text("5", encoding="ascii")
     except OSError:
         return
 

@@ -1,4 +1,4 @@
-"""Accuracy against cost: one scene on a ladder of every knob, each rung beside the scene's converged friction.
+"""Accuracy against cost: one scene on a ladder of every knob, each rung compared with the scene's reference friction.
 
 The knobs are turned one at a time, from the mesh of fineness 1 without further refinement:
 
@@ -9,8 +9,8 @@ The knobs are turned one at a time, from the mesh of fineness 1 without further 
 - ``folding``: the share of the accuracy that leaving out Prony branches may use;
 - ``tolerance`` of the solver in finite strain;
 - ``steps`` per wavelength, marched in time from steady sliding; ``wavelengths`` pressed and slid;
-- ``start``: an accuracy asked for, and the fineness of the first mesh on which it is looked for: presets are chosen
-  among these (``rubfric.studies.accuracy.presets``).
+- ``start``: a target accuracy, and the fineness of the first mesh from which it is reached: presets are chosen among
+  these (``rubfric.studies.accuracy.presets``).
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from typing import Any
 
 import pandas as pd
 
-from rubfric.config.presets import fineness
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.marching import march
 from rubfric.mechanics.march.result import Transient
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.scene.numerics import fineness
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import evaluate, solve
 from rubfric.studies.accuracy.converged import Converged, converge
 from rubfric.studies.accuracy.cost import measure
 
-# Accuracies, and the fineness of the first mesh on which each is looked for.
+# Target accuracies, and the fineness of the first meshes tried for each.
 STARTS = {0.05: (0.25, 0.35, 0.5), 0.01: (0.35, 0.5, 0.7, 1.0), 0.002: (0.5, 0.7, 1.0, 1.4)}
 _MESHES = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0)
 _SURFACES = (0.25, 0.5, 1.0, 2.0)
@@ -45,15 +45,23 @@ _FOLDING = (1.0, 0.1, 0.01, 0.0)
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
 _STEPS = (8, 16, 32, 64)
 _WAVELENGTHS, _WAVELENGTH_STEPS = (1, 2, 4, 8), 32
-# Marches are measured where so many columns or fewer suffice, on half of them.
+# Marches are measured where at most this number of columns suffices, on half of them.
 _MARCH_COLUMNS = 128
-# Repetitions of a rung for its time: until so many seconds are spent, or so many times.
+# Repetitions of a rung for its time: until this time is spent, s, or this number of times.
 _SECONDS, _TIMES = 0.5, 3
 
 
 @dataclass(frozen=True)
 class Rung:
-    """One setting of one knob."""
+    """One setting of one knob.
+
+    Attributes
+    ----------
+    knob, rung : str
+        Names of the knob and of its setting.
+    scene : Scene
+        With that setting.
+    """
 
     knob: str
     rung: str
@@ -92,15 +100,21 @@ def rungs(scene: Scene) -> Iterator[Rung]:
         yield rung("tolerance", f"{value:g}", tolerance=value)
 
 
-def climb(name: str, scene: Scene) -> pd.DataFrame:
-    """Measure every rung of a scene; its own numerics give what no knob turns.
+def measure_ladder(name: str, scene: Scene) -> pd.DataFrame:
+    """Measure every rung of a scene; whatever no knob turns is as in the numerics of the scene.
+
+    Parameters
+    ----------
+    name : str
+        What the scene is called in the table.
+    scene : Scene
 
     Returns
     -------
     pandas.DataFrame
         Columns scene, velocity (mm/s), pressure (MPa), knob, rung, friction_coefficient, reference, reference_error
         (absolute), error and estimate (relative to the reference), seconds, iterations,
-         krylov, memory_MB, columns, rows, meshes, kinematics, plane, note.
+        krylov, memory_MB, columns, rows, meshes, kinematics, plane, note.
     """
     reference = converge(scene)
     measured: dict[Scene, dict[str, Any]] = {}  # several knobs share a rung
@@ -143,7 +157,7 @@ def _steady(scene: Scene) -> dict[str, Any]:
 
 
 def _marches(scene: Scene, columns: int) -> Iterator[dict[str, Any]]:
-    """Yield the rungs of the knobs of time: steps per wavelength, and wavelengths slid."""
+    """Yield the rungs of the knobs of marching: steps per wavelength, and wavelengths slid."""
     scene = dataclasses.replace(scene, numerics=dataclasses.replace(scene.numerics, **fineness(1.0)))
     for steps in _STEPS:
         procedure = Procedure(
@@ -160,7 +174,7 @@ def _marches(scene: Scene, columns: int) -> Iterator[dict[str, Any]]:
 
 
 def _march(knob: str, slid: dict[str, int], scene: Scene, procedure: Procedure) -> Iterator[dict[str, Any]]:
-    """Yield one rung for every number of wavelengths slid, out of one march."""
+    """Yield one rung for every number of wavelengths slid, from one march."""
     try:
         cost = measure(lambda: march(scene, procedure))
     except (InvalidInput, NotConverged) as error:
@@ -187,18 +201,8 @@ def _march(knob: str, slid: dict[str, int], scene: Scene, procedure: Procedure) 
 
 
 COLUMNS = (
-    *(
-        "scene",
-        "velocity",
-        "pressure",
-        "knob",
-        "rung",
-        "friction_coefficient",
-        "reference",
-        "reference_error",
-        "error",
-        "estimate",
-    ),
+    *("scene", "velocity", "pressure", "knob", "rung", "friction_coefficient"),
+    *("reference", "reference_error", "error", "estimate"),
     *("seconds", "iterations", "krylov", "memory_MB", "columns", "rows", "meshes", "kinematics", "plane"),
     "note",
 )

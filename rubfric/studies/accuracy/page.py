@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pandas as pd
 
-from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, verdict
+from rubfric.markdown import markdown_table
+from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, coverage_table
 from rubfric.studies.accuracy.presets import knob_table, start_table
 
-# What stands where there is no number.
+# Entry of a table without a number.
 _NOTHING = "-"
-# Knob: what it is, in which words its rungs are told.
+# Knob: what it is, and what its rungs mean.
 _KNOBS = {
     "mesh": "The whole mesh at once: nodes in contact, columns and rows, by its fineness (1: 64 nodes in contact in "
     "small strain, 32 in finite strain, rows that grow by 10 %).",
@@ -49,7 +50,7 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
     Parameters
     ----------
     ladder : pandas.DataFrame
-        Of all scenes, as from ``rubfric.studies.accuracy.ladder.climb``.
+        Of all scenes, as from ``rubfric.studies.accuracy.ladder.measure_ladder``.
     calibration : pandas.DataFrame
         As from ``rubfric.studies.accuracy.calibration``.
     presets : dict of str to float
@@ -69,7 +70,7 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
         preset_text(ladder, presets),
         "Each begins with the first mesh that is the cheapest for its accuracy and keeps it on every scene (the finest "
         "of those that cost the same within 15 %), and refines it where the estimated error says so:",
-        _markdown(_told(start_table(ladder))),
+        _markdown(_formatted(start_table(ladder))),
         "## Can the estimated errors be trusted?",
         calibration_text(calibration),
         "## What dominates where",
@@ -81,12 +82,18 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
     for knob, words in _KNOBS.items():
         rungs = knobs[knobs["knob"] == knob]
         if len(rungs):
-            parts += [f"### `{knob}`", f"{words} {_bought(rungs)}", _markdown(_told(rungs.drop(columns="knob")))]
+            parts += [f"### `{knob}`", f"{words} {_bought(rungs)}", _markdown(_formatted(rungs.drop(columns="knob")))]
     return "\n\n".join(parts) + "\n"
 
 
 def preset_text(ladder: pd.DataFrame, presets: dict[str, float]) -> str:
-    """Return the table of presets: accuracy asked for, typical and worst error, and cost."""
+    """Return the table of presets as Markdown: accuracy asked for, typical and worst error, and cost.
+
+    Parameters
+    ----------
+    ladder, presets
+        As for ``accuracy_page``.
+    """
     knobs = knob_table(ladder).query("knob == 'preset'").set_index("rung")
     count = ladder["scene"].nunique()
     table = pd.DataFrame(
@@ -107,7 +114,7 @@ def preset_text(ladder: pd.DataFrame, presets: dict[str, float]) -> str:
 
 def calibration_text(calibration: pd.DataFrame) -> str:
     """Return the table of how often, and how tightly, the estimates cover the true errors."""
-    found = verdict(calibration)
+    found = coverage_table(calibration)
     total = found.iloc[-1]
     table = pd.DataFrame(
         {
@@ -175,18 +182,18 @@ def _bought(rungs: pd.DataFrame) -> str:
     )
 
 
-def _told(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a table with numbers as a reader wants them."""
-    told = table.copy()
+def _formatted(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table with its numbers rounded for reading."""
+    shown = table.copy()
     for name in ("typical_error", "worst_error", "typical_estimate", "accuracy"):
-        if name in told:
-            told[name] = told[name].map(_percent)
+        if name in shown:
+            shown[name] = shown[name].map(_percent)
     for name, form in (("cost", "{:.2g}"), ("seconds", "{:.1f}"), ("memory_MB", "{:.0f}"), ("fineness", "{:g}")):
-        if name in told:
-            told[name] = [_NOTHING if pd.isna(value) else form.format(value) for value in told[name]]
-    if "chosen" in told:
-        told["chosen"] = told["chosen"].map({True: "yes", False: ""})
-    return told.rename(columns=lambda name: str(name).replace("_MB", ", MB").replace("_", " "))
+        if name in shown:
+            shown[name] = [_NOTHING if pd.isna(value) else form.format(value) for value in shown[name]]
+    if "chosen" in shown:
+        shown["chosen"] = shown["chosen"].map({True: "yes", False: ""})
+    return shown.rename(columns=lambda name: str(name).replace("_MB", ", MB").replace("_", " "))
 
 
 def _percent(share: float) -> str:
@@ -194,6 +201,4 @@ def _percent(share: float) -> str:
 
 
 def _markdown(table: pd.DataFrame) -> str:
-    lines = [[str(name) for name in table.columns], ["---", *["---:"] * (len(table.columns) - 1)]]
-    lines += [[str(value) for value in row] for row in table.itertuples(index=False)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return markdown_table([list(table.columns), *table.itertuples(index=False)], numeric=True)

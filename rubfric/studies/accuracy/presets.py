@@ -1,4 +1,4 @@
-"""What the ladders say: what each knob buys, and which first mesh is the cheapest for an accuracy."""
+"""What the ladders show: what each knob buys, and which first mesh is the cheapest for an accuracy."""
 
 from __future__ import annotations
 
@@ -6,22 +6,21 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from rubfric.config.presets import fineness
 from rubfric.errors import BrokenResult
-from rubfric.scene.scene import Numerics
+from rubfric.scene.numerics import Numerics, fineness
 from rubfric.studies.accuracy.ladder import STARTS
 
-# First meshes whose costs differ by less than this share cost the same: the finest of them is taken.
+# First meshes whose costs differ by less than this share count as equally cheap: the finest of them is taken.
 _TIE = 0.15
 
 
-def priced(ladder: pd.DataFrame, accuracies: Mapping[str, float]) -> pd.DataFrame:
-    """Return a ladder with its presets, the cheapest first meshes for their accuracies, and with costs.
+def with_costs(ladder: pd.DataFrame, accuracies: Mapping[str, float]) -> pd.DataFrame:
+    """Return a ladder with costs, and with the presets as the cheapest first meshes for their accuracies.
 
     Parameters
     ----------
     ladder : pandas.DataFrame
-        Of all scenes, as from ``rubfric.studies.accuracy.ladder.climb``.
+        Of all scenes, as from ``rubfric.studies.accuracy.ladder.measure_ladder``.
     accuracies : mapping of str to float
         Accuracy of each preset by name, ``standard`` among them.
 
@@ -59,8 +58,8 @@ def knob_table(ladder: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Columns knob, rung, scenes, refused, typical_error (median), worst_error, typical_estimate, cost (median, where
-        the ladder is ``priced``), seconds (sum), memory_MB (most); in the order of the ladder.
+        Columns knob, rung, scenes, refused, typical_error (median), worst_error, typical_estimate, cost (median, of a
+        ladder ``with_costs``), seconds (sum), memory_MB (most); in the order of the ladder.
     """
     rows = []
     for (knob, rung), part in ladder.groupby(["knob", "rung"], sort=False):
@@ -117,7 +116,15 @@ def start_table(ladder: pd.DataFrame) -> pd.DataFrame:
 
 
 def presets_that_differ(starts: pd.DataFrame, presets: Mapping[str, Numerics]) -> list[str]:
-    """Return the presets whose first mesh is not the one that ``start_table`` chose for their accuracy."""
+    """Return the presets whose first mesh is not the one that ``start_table`` chose for their accuracy.
+
+    Parameters
+    ----------
+    starts : pandas.DataFrame
+        As from ``start_table``.
+    presets : mapping of str to Numerics
+        By name.
+    """
     differing = []
     for name, numerics in presets.items():
         chosen = starts[starts["chosen"] & (starts["accuracy"] == numerics.accuracy)]

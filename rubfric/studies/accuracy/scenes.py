@@ -3,7 +3,7 @@
 The fixed set takes each scale of the paper's road slow, near its peak and fast, lightly and heavily loaded, in both
 planes, with flat and tall blocks among them. The drawn ones are spread evenly over the logarithms of their parameters;
 outside the paper's grid, speeds, pressures, height-to-width ratios, slopes and wavelengths go ten to a hundred times
-further, and rubbers are made up.
+further, and half of the rubbers are random.
 """
 
 from __future__ import annotations
@@ -63,7 +63,16 @@ def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
 def drawn_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
     """Return drawn scenes by name, ``inside_0`` to ``outside_<count - 1>``: as many inside the grid as outside.
 
-    A third of them in small strain, which is asked for; the others in what they need.
+    A third of them ask for small strain, the others for ``auto``.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Its road and rubber.
+    count : int
+        Scenes inside the grid, and outside.
+    seed : int
+        Of the random numbers.
     """
     rng = np.random.default_rng(seed)
     return {f"{kind}_{number}": _drawn(campaign, rng, kind, number) for kind in SETS for number in range(count)}
@@ -83,7 +92,7 @@ def _drawn(campaign: Campaign, rng: np.random.Generator, kind: str, number: int)
 
 
 def _rubber(rng: np.random.Generator) -> Material:
-    """Return a rubber with a few branches spread over ten decades."""
+    """Return a random rubber with a few branches spread over ten decades."""
     branches = int(rng.integers(1, _BRANCHES + 1))
     fractions = rng.dirichlet(np.ones(branches)) * rng.uniform(0.3, 0.99)
     return Material(
@@ -103,6 +112,13 @@ def _between(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def batches(names: list[str], size: int) -> Iterator[list[str]]:
-    """Yield names in groups of ``size``."""
+    """Yield names in groups.
+
+    Parameters
+    ----------
+    names : list of str
+    size : int
+        Of a group; the last may be smaller.
+    """
     for start in range(0, len(names), size):
         yield names[start : start + size]

@@ -1,8 +1,10 @@
-"""What the paper claims (Zhou, Wang and Wei 2019), and the parts that each claim is judged by."""
+"""What the paper claims (Zhou, Wang and Wei 2019), the parts that each claim is judged by, and one number on a part."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ CLAIMS: dict[str, Claim] = {
     "C5": Claim(
         "Fig. 5",
         "Friction saturates with the steps of sliding.",
-        {"saturates": "variation of friction over as long as the rubber remembers, or over all wavelengths slid"},
+        {"saturates": "variation of friction over the memory of the rubber, or over all wavelengths slid"},
     ),
     "C6": Claim(
         "Fig. 6",
@@ -84,3 +86,52 @@ CLAIMS: dict[str, Claim] = {
         },
     ),
 }
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One number for or against a claim.
+
+    Attributes
+    ----------
+    claim, part : str
+        Keys of ``CLAIMS`` and of the claim's ``parts``.
+    scale : int, optional
+    pressure : float, optional
+        Nominal, MPa.
+    velocity : float, optional
+        mm/s.
+    value, error : float
+        Dimensionless; the error absolute, and NaN where it was not estimated.
+    limit : float
+    sense : {"above", "below"}
+        Where the value has to be for the claim to hold.
+    simulated : bool
+        Whether it rests on a simulated measurement.
+    outcome : {"yes", "no", "open"}
+        ``open`` where the limit is within the error of the value.
+    """
+
+    claim: str
+    part: str
+    scale: int | None
+    pressure: float | None
+    velocity: float | None
+    value: float
+    error: float
+    limit: float
+    sense: str
+    simulated: bool = False
+
+    @property
+    def margin(self) -> float:
+        """How far the value is on the right side of its limit; negative on the wrong one."""
+        return self.value - self.limit if self.sense == "above" else self.limit - self.value
+
+    @property
+    def outcome(self) -> str:
+        """Whether the value supports the claim: yes, no, or open."""
+        error = 0.0 if np.isnan(self.error) else self.error
+        if abs(self.margin) <= error:
+            return "open"
+        return "yes" if self.margin >= 0.0 else "no"

@@ -1,9 +1,10 @@
-"""Whether single scenes bear out what the paper claims: numbers with their errors against limits, one by one."""
+"""Whether single scenes, marches and rig points support what the paper claims: numbers with errors against limits."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 import pandas as pd
@@ -11,61 +12,20 @@ import xarray as xr
 
 from rubfric.arrays import Real
 from rubfric.results.scales import total_error, total_friction
+from rubfric.results.selection import find_peak
+from rubfric.studies.paper.claims import Evidence
 from rubfric.studies.paper.observation import DEPTH
 
 # A profile counts as filled where this share of it is in contact. ASSUME: the paper names no number.
 FILLED = 0.99
 # From this height-to-width ratio on the paper calls friction stable.
 STABLE = 0.75
+# Points of the rig have one pressure where each is at most this factor above the one before.
+_NEAR = 1.1
+_RIG_SPEED, _RIG_PRESSURE = "speed_mm_per_s", "pressure_MPa"
 
-
-@dataclass(frozen=True)
-class Evidence:
-    """One number that bears on a claim.
-
-    Attributes
-    ----------
-    claim, part : str
-        As in ``rubfric.studies.paper.claims``.
-    scale : int, optional
-    pressure : float, optional
-        Nominal, MPa.
-    velocity : float, optional
-        mm/s.
-    value, error : float
-        Dimensionless; the error absolute, and NaN where it was not estimated.
-    limit : float
-    sense : {"above", "below"}
-        Where the value has to be for the claim to hold.
-    simulated : bool
-        Whether a simulation stands in for a measurement.
-    outcome : {"yes", "no", "open"}
-        ``open`` where the limit is within the error of the value.
-    """
-
-    claim: str
-    part: str
-    scale: int | None
-    pressure: float | None
-    velocity: float | None
-    value: float
-    error: float
-    limit: float
-    sense: str
-    simulated: bool = False
-
-    @property
-    def margin(self) -> float:
-        """How far the value is on the right side of its limit; negative on the wrong one."""
-        return self.value - self.limit if self.sense == "above" else self.limit - self.value
-
-    @property
-    def outcome(self) -> str:
-        """Whether the value bears the claim out: yes, no, or open."""
-        error = 0.0 if np.isnan(self.error) else self.error
-        if abs(self.margin) <= error:
-            return "open"
-        return "yes" if self.margin >= 0.0 else "no"
+# Scale, pressure (MPa) and speed (mm/s) of a number; None where it is of several.
+Where: TypeAlias = tuple[int | None, float | None, float | None]
 
 
 def gather(observed: xr.Dataset, aspect: float, studied: Iterable[float], difference: float) -> list[Evidence]:
@@ -93,7 +53,15 @@ def gather(observed: xr.Dataset, aspect: float, studied: Iterable[float], differ
 
 
 def depth_evidence(depths: pd.DataFrame, difference: float) -> list[Evidence]:
-    """Return what profiles over the depth say on C2; a table with the columns of ``DEPTH`` and the scenes' axes."""
+    """Return what profiles over the depth say on C2.
+
+    Parameters
+    ----------
+    depths : pandas.DataFrame
+        Columns of ``DEPTH`` (dimensionless), scale, pressure (MPa) and velocity (mm/s); a row per scene.
+    difference : float
+        Share of the largest density up to which two densities are called equal.
+    """
     parts = ("lower at the top than at the road", "falls all the way", "settles")
     senses = ("above", "below", "below")
     return [
@@ -104,22 +72,55 @@ def depth_evidence(depths: pd.DataFrame, difference: float) -> list[Evidence]:
 
 
 def march_evidence(march: xr.Dataset, tolerance: float) -> Evidence:
-    """Return what a march says on C5; undecided where it slid for less than the rubber remembers."""
-    remembered = float(march["saturation_wavelengths"]) >= float(march["saturation_needed"])
+    """Return what a march says on C5; undecided where it slid for less than the memory of the rubber.
+
+    Parameters
+    ----------
+    march : xarray.Dataset
+        As built by ``rubfric.results.march.build``.
+    tolerance : float
+        Relative variation of friction up to which it counts as saturated.
+    """
+    long_enough = float(march["saturation_wavelengths"]) >= float(march["saturation_needed"])
     about = march.attrs
     return Evidence(
         *("C5", "saturates", int(about["scale"]), float(about["pressure"]), float(about["velocity"])),
         value=float(march["saturation_variation"]),
-        error=0.0 if remembered else np.inf,
+        error=0.0 if long_enough else np.inf,
         limit=tolerance,
         sense="below",
     )
 
 
 def march_note(evidence: Iterable[Evidence]) -> str:
-    """Return in a sentence which marches were too short to decide, or nothing where none was."""
+    """Return in a sentence which marches were too short to decide; empty if none was."""
     short = [f"{one.velocity:g}" for one in evidence if one.claim == "C5" and np.isinf(one.error)]
-    return f"At {', '.join(short)} mm/s the march ended before the rubber forgot its beginning." if short else ""
+    return f"At {', '.join(short)} mm/s the march was shorter than the memory of the rubber." if short else ""
+
+
+def rig_evidence(points: pd.DataFrame) -> list[Evidence]:
+    """Return what points of the test rig say on C8: the largest friction of each pressure over that at both end speeds.
+
+    Parameters
+    ----------
+    points : pandas.DataFrame
+        As ``rubfric.rig.reduction.point_table`` returns it. Errors are the half-widths of the 95 % confidence
+        intervals of both points, added. A pressure with fewer than three points decides nothing.
+    """
+    return [one for group in _by_pressure(points) if len(group) > 2 for one in _of_one_pressure(group)]
+
+
+def rig_note(points: pd.DataFrame) -> str:
+    """Return in a sentence whether the points were measured."""
+    simulated = int((points["source"] == "simulated").sum())
+    if not len(points):
+        return "The test rig gave no point."
+    if not simulated:
+        return f"From {len(points)} measured points."
+    return (
+        f"{simulated} of {len(points)} points are SIMULATED: a virtual rig measured what was simulated. That shows "
+        "what a rig would see; only a measurement, named in rig.data, can decide."
+    )
 
 
 def _ratios(observed: xr.Dataset, aspect: float, studied: set[float], difference: float) -> Iterator[Evidence]:
@@ -127,12 +128,12 @@ def _ratios(observed: xr.Dataset, aspect: float, studied: set[float], difference
         at = observed.sel(scale=scale, pressure=pressure)
         if pressure not in studied or at["friction_coefficient"].notnull().any("velocity").sum() < 2:
             continue
-        highest = _highest(at["friction_coefficient"].sel(aspect=aspect).values)
+        highest = find_peak(at["friction_coefficient"].sel(aspect=aspect).values).at
         for place, velocity in enumerate(at["velocity"].values):
             friction, error = _known(at.sel(velocity=velocity), "aspect")
             where = (int(scale), float(pressure), float(velocity))
             if highest is not None and place < highest and len(friction) > 1:
-                yield _rise("C1", "rises below the peak", where, friction[-1], error[-1], friction[0], error[0])
+                yield _rise("C1", "rises below the peak", where, friction, error, -1, 0)
             if highest is not None and place > highest and len(friction) > 1:
                 yield _spread("C1", "hardly differs above the peak", where, friction, error, "below", difference)
             friction, error = _known(at.sel(velocity=velocity, aspect=slice(STABLE, None)), "aspect")
@@ -189,39 +190,43 @@ def _totals(grid: xr.Dataset) -> Iterator[Evidence]:
         yield from _peak("C7", (None, float(pressure)), *_known(total.sel(pressure=pressure), "velocity"))
 
 
+def _by_pressure(points: pd.DataFrame) -> Iterator[pd.DataFrame]:
+    """Yield the rig's points of each pressure, by speed."""
+    ordered = points.sort_values(_RIG_PRESSURE)
+    pressures = ordered[_RIG_PRESSURE].to_numpy(dtype=float)
+    apart = np.append(False, pressures[1:] > _NEAR * pressures[:-1])[: len(pressures)]
+    for _, group in ordered.groupby(np.cumsum(apart)):
+        yield group.sort_values(_RIG_SPEED)
+
+
+def _of_one_pressure(group: pd.DataFrame) -> Iterator[Evidence]:
+    names = ("friction_coefficient", "friction_coefficient_ci95", _RIG_SPEED)
+    friction, error, speed = (group[name].to_numpy(dtype=float) for name in names)
+    top = int(np.argmax(friction))
+    where = (None, float(f"{group[_RIG_PRESSURE].median():.3g}"), float(f"{speed[top]:.3g}"))
+    simulated = bool((group["source"] == "simulated").any())
+    for part, end in (("rises to a peak", 0), ("falls past the peak", -1)):
+        yield replace(_rise("C8", part, where, friction, error, top, end), simulated=simulated)
+
+
 def _peak(claim: str, where: tuple[int | None, float], friction: Real, error: Real) -> Iterator[Evidence]:
     """Yield by how much friction between the ends exceeds that at the ends, where there are three speeds."""
     if len(friction) < 3:
         return
     inner = 1 + int(np.argmax(friction[1:-1]))
-    end = 0 if friction[0] >= friction[-1] else len(friction) - 1
-    yield _rise(claim, "peaks over speed", (*where, None), friction[inner], error[inner], friction[end], error[end])
+    end = 0 if friction[0] >= friction[-1] else -1
+    yield _rise(claim, "peaks over speed", (*where, None), friction, error, inner, end)
 
 
-def _rise(
-    claim: str,
-    part: str,
-    where: tuple[int | None, float | None, float | None],
-    upper: float,
-    upper_error: float,
-    lower: float,
-    lower_error: float,
-) -> Evidence:
-    """Return by how much one friction exceeds another, relative to the other."""
-    base = max(abs(lower), lower_error, float(np.finfo(float).tiny))
-    return Evidence(claim, part, *where, (upper - lower) / base, (upper_error + lower_error) / base, 0.0, "above")
+def _rise(claim: str, part: str, where: Where, friction: Real, error: Real, upper: int, lower: int) -> Evidence:
+    """Return by how much one friction exceeds another, relative to the other: their numbers ``upper`` and ``lower``."""
+    base = max(abs(friction[lower]), error[lower], float(np.finfo(float).tiny))
+    value = (friction[upper] - friction[lower]) / base
+    return Evidence(claim, part, *where, value, (error[upper] + error[lower]) / base, 0.0, "above")
 
 
-def _spread(
-    claim: str,
-    part: str,
-    where: tuple[int | None, float | None, float | None],
-    friction: Real,
-    error: Real,
-    sense: str,
-    limit: float,
-) -> Evidence:
-    """Return the range of frictions, over their mean where they ought to be equal, and else over the largest."""
+def _spread(claim: str, part: str, where: Where, friction: Real, error: Real, sense: str, limit: float) -> Evidence:
+    """Return the range of frictions, over their mean where they should be equal, and otherwise over the largest."""
     top, bottom = int(np.argmax(friction)), int(np.argmin(friction))
     base = max(abs(float(friction.mean() if sense == "below" else friction[top])), float(np.finfo(float).tiny))
     value = (friction[top] - friction[bottom]) / base
@@ -234,10 +239,6 @@ def _known(at: xr.Dataset, axis: str) -> tuple[Real, Real]:
     error = at["friction_coefficient_error"].transpose(axis).values
     known = np.isfinite(friction) & np.isfinite(error)
     return friction[known], error[known]
-
-
-def _highest(friction: Real) -> int | None:
-    return int(np.nanargmax(friction)) if np.isfinite(friction).any() else None
 
 
 def _pairs(observed: xr.Dataset, first: str, second: str) -> Iterator[tuple[float, float]]:

@@ -1,4 +1,4 @@
-"""What a claim is judged by, scene by scene: scalars of the result, and how strain energy falls over the depth."""
+"""What claims are judged by, scene by scene: scalars of the result, and how strain energy falls over the depth."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ def observe(scene: Scene) -> dict[str, Any]:
 
 
 def profile_row(result: xr.Dataset) -> dict[str, Any]:
-    """Return where a result belongs on the axes, and its measures over the depth."""
+    """Return the coordinates of a result on the axes, and its measures over the depth."""
     return {name: float(result.attrs[name]) for name in AXES} | depth_measures(result)
 
 
 def refusals(observations: pd.DataFrame) -> str:
-    """Return in a sentence how many scenes were refused, and why the first was; nothing where none was."""
+    """Return in a sentence how many scenes were refused, and why the first was; empty if none was."""
     refused = observations[observations["friction_coefficient"].isna()]
     if refused.empty:
         return ""
@@ -71,7 +71,19 @@ def refusals(observations: pd.DataFrame) -> str:
 
 
 def among(observations: pd.DataFrame, chosen: Mapping[str, Iterable[float]]) -> pd.Series:
-    """Return which observations have one of the chosen values on each of the axes that are named."""
+    """Return which observations have one of the chosen values on each of the named axes.
+
+    Parameters
+    ----------
+    observations : pandas.DataFrame
+        As from ``table``.
+    chosen : mapping of str to iterable of float
+        Values on each axis: scale, velocity (mm/s), pressure (MPa) or aspect.
+
+    Returns
+    -------
+    pandas.Series of bool
+    """
     fits = [observations[axis].isin(list(values)) for axis, values in chosen.items()]
     return pd.concat(fits, axis=1).all(axis=1)
 

@@ -6,13 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from rubfric.config.readings import AS_CONFIGURED
-from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import Evidence
+from rubfric.config.models import AS_CONFIGURED
+from rubfric.studies.paper.claims import CLAIMS, Evidence
 
 HOLDS, IN_PART, FAILS, UNDECIDED = "holds", "holds in part", "does not hold", "not decided"
 EVERY = "all"
-# What a verdict ends with where a simulation stands in for a measurement.
+# What a verdict ends with where it rests on a simulated measurement.
 SIMULATED = " (simulated)"
 
 _PLACES = {"scale": "scale", "pressure": "pressure_MPa", "velocity": "velocity_mm_per_s"}
@@ -54,7 +53,7 @@ def claims_table(
 ) -> pd.DataFrame:
     """Return the verdict on each claim, in each reading, over all pressures and at each of them.
 
-    A claim *holds* where every number that can be decided bears it out, and more than half can be; it *does not hold*
+    A claim *holds* where every number that can be decided supports it, and more than half can be; it *does not hold*
     where none does, and else *holds in part*; ``not decided`` where there is no number, or none beyond its error.
 
     Parameters

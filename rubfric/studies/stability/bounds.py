@@ -1,8 +1,8 @@
-"""Whether a result keeps the bounds that physics sets: of steady sliding from its dataset, of a march from its records.
+"""Whether a result keeps the bounds of physics: of steady sliding from its dataset, of a march from its records.
 
 Bounds are those that hold for any rubber, road, load and speed: no negative friction, contact pressure, gap, energy
-or dissipation; contact forces that carry the load; friction below the steepest slope, since the road has none of its
-own; the first law.
+or dissipation; contact forces that carry the load; friction below the steepest slope, since the road itself is
+frictionless; the first law.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ import numpy as np
 import xarray as xr
 
 from rubfric.mechanics.march.result import Transient
-from rubfric.results.warnings import faint
+from rubfric.results.warnings import below_noise_warning
 
 # Share of the load, of the amplitude or of the energy turned over by which a bound may be missed: a solver's tolerance.
 _SLACK = 1e-4
 # Forces balance to round-off.
 _BALANCE = 1e-9
-# On a flat road lengths are measured by this share of a wavelength.
+# The unit of lengths on a flat road, as a share of the wavelength.
 _FLAT = 1e-7
-# Share of the largest pressure and of the amplitude below which pressure and gap at one node are no contradiction.
+# Share of the largest pressure and of the amplitude below which both pressure and gap may be positive at a node.
 _TOUCHING = 1e-9
 # The first law is met in time to the second order of the step: share of the energy turned over that may be missing.
 _FIRST_LAW = 0.05
@@ -30,7 +30,7 @@ _FIRST_LAW = 0.05
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a result says, judged.
+    """A result checked against its bounds.
 
     Attributes
     ----------
@@ -38,13 +38,13 @@ class Verdict:
         Friction coefficient by stress power, dissipation and contact; of a march by energy, by the work of the road
         and by contact, on average at full speed.
     closure : float
-        Largest relative difference of the three, or of what cannot be told from zero where that is larger.
+        Largest relative difference of the three (of ``resolution`` where that is larger).
     resolution : float
-        Friction that cannot be told from zero.
+        Friction below which the solver cannot distinguish it from zero.
     broken : tuple of str
         Bounds that are not kept, one sentence each.
     remarks : tuple of str
-        What the result itself says about how far to trust it.
+        Warnings of the result.
     """
 
     friction: tuple[float, float, float]
@@ -55,7 +55,15 @@ class Verdict:
 
 
 def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
-    """Judge the dataset of a scene (``results.dataset.build``); its energy routes may differ by ``most_closure``."""
+    """Check the dataset of a scene.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        As built by ``rubfric.results.dataset.build``.
+    most_closure : float
+        Largest allowed relative difference of the routes to friction.
+    """
     routes = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
     power, lost, contact = (float(result[name]) for name in routes)
     floor, closure = float(result["friction_resolution"]), float(result["energy_closure"])
@@ -85,18 +93,25 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
 
 
 def _least_gap(result: xr.Dataset) -> float:
-    """Return the smallest height of the surface above the road where the mesh of the fields has moved to, mm."""
+    """Return the smallest height of the deformed surface above the road at the output nodes, mm."""
     nodes = np.flatnonzero(result["mesh_node_y"].values == 0.0)
     place = result["mesh_node_x"].values[nodes] + result["displacement_x"].values[nodes]
     height = result["displacement_y"].values[nodes]
-    if not int(result["finite_strain"]):  # a node stays above its place where displacements are small
+    if not int(result["finite_strain"]):  # small strain neglects horizontal displacement in contact
         place = result["mesh_node_x"].values[nodes]
     road = result.attrs["amplitude"] * np.sin(result.attrs["wavenumber"] * place)
     return float((height - road).min())
 
 
 def judge_march(found: Transient, most_closure: float) -> Verdict:
-    """Judge a march; its routes to friction may differ by ``most_closure``."""
+    """Check a march.
+
+    Parameters
+    ----------
+    found : Transient
+    most_closure : float
+        Largest allowed relative difference of the routes to friction.
+    """
     records = {name: values[found.sliding] for name, values in found.records.items()}
     slope, fraction = found.scene.road.steepest_slope, records["contact_fraction"]
     # All that moves between road, load, springs and branches.
@@ -119,9 +134,8 @@ def judge_march(found: Transient, most_closure: float) -> Verdict:
     )
     broken = tuple(sentence for kept, sentence in checks if not kept)
     contact, work, energy = found.friction
-    return Verdict(
-        (energy, work, contact), found.closure, found.resolution, broken, tuple(faint(work, found.resolution))
-    )
+    remarks = tuple(below_noise_warning(work, found.resolution))
+    return Verdict((energy, work, contact), found.closure, found.resolution, broken, remarks)
 
 
 def _not_finite(values: np.ndarray) -> bool:

@@ -1,7 +1,7 @@
-"""The matrix of numerical stability: scenes and marches far beyond any road test, as plain data.
+"""The matrix of numerical stability: scenes and marches at extreme inputs, as plain data.
 
 Every case differs from one base scene, near the paper's, in a few parameters. Planes of two parameters show where the
-limits lie; seeded corners mix all parameters at their ends.
+limits are; seeded corners combine extremes of all parameters.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MOTIONS = ("steady", "march")
 _CORNERS, _MARCHED_CORNERS, _SEED = 40, 12, 20190923
 # Speeds of the panel ``limits``, mm/s: two far slower than its branch relaxes, one near that, two far faster.
 LIMIT_SPEEDS = (1e-9, 1e-6, 1.0, 1e6, 1e9)
-# Branches of the corners' rubber are spread over so many decades, and so are those of the panel of branches.
+# Decades over which the branches of the rubber are spread, in the corners and in the panel of branches.
 _MOST_DECADES = 20.0
 
 PANELS = {

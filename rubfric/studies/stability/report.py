@@ -1,4 +1,4 @@
-"""The matrix of stability as a table and in words: what became of every case, and how friction vanishes."""
+"""The matrix of stability as a table and in words: the outcome of every case, and the limits of friction."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from rubfric.markdown import markdown_table
 from rubfric.studies.stability.cases import LIMIT_SPEEDS, PANELS, Case
 from rubfric.studies.stability.trial import MOST_MEMORY, MOST_SECONDS, OUTCOMES, Trial
 
@@ -35,7 +36,19 @@ _TOLERANCE = 0.05
 
 
 def row(case: Case, trial: Trial) -> dict[str, Any]:
-    """Return the line of the table for a case."""
+    """Return the row of the table for a case.
+
+    Parameters
+    ----------
+    case : Case
+    trial : Trial
+        How it ended.
+
+    Returns
+    -------
+    dict
+        By column; speed in mm/s, pressure in MPa, lengths in mm, times in s, memory in MiB.
+    """
     given = case.parameters()
     power, lost, contact = trial.friction
     return (
@@ -68,7 +81,7 @@ class Limit:
     end : {"slow", "fast"}
         Far slower than the slowest branch, or far faster than the fastest one.
     error : float
-        Friction at one speed over what v or 1 / v make of that at the other, less one; NaN where one is missing.
+        Ratio of the two friction coefficients over that of v or 1 / v, less one; NaN where one is missing.
     """
 
     plane: str
@@ -84,7 +97,7 @@ class Limit:
 
 
 def limits(table: pd.DataFrame) -> list[Limit]:
-    """Return how friction vanishes at the ends of the speeds of the panel ``limits``.
+    """Return how friction vanishes at both ends of the speeds in the panel ``limits``.
 
     Dissipation is compared: a sum of terms that are never negative, good to round-off however small.
     """
@@ -99,7 +112,7 @@ def limits(table: pd.DataFrame) -> list[Limit]:
 
 
 def counts(table: pd.DataFrame) -> pd.DataFrame:
-    """Return how many cases of every panel ended how, with the largest closure, time and memory; one row a panel."""
+    """Return the number of cases with each outcome, and the largest closure, time and memory; one row per panel."""
     rows = []
     for panel, words in PANELS.items():
         part = table[table["panel"] == panel]
@@ -117,7 +130,7 @@ def counts(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def summary(table: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Return the rows of the short table, headings first: for the README."""
+    """Return the rows of the short table, headings first: as on the page."""
     rows: list[tuple[str, ...]] = [("", "cases", *OUTCOMES, "largest closure", "slowest", "most memory")]
     found = counts(table)
     for entry in found.to_dict("records"):
@@ -134,7 +147,7 @@ def _line(words: str, entry: dict[Any, Any]) -> tuple[str, ...]:
 
 
 def page(table: pd.DataFrame) -> str:
-    """Return the whole outcome in words, as Markdown."""
+    """Return the page on numerical stability, as Markdown."""
     failed, refused = (table[table["outcome"] == outcome] for outcome in ("failed", "refused"))
     followed = limits(table)
     wrong = [limit for limit in followed if not limit.kept]
@@ -142,13 +155,13 @@ def page(table: pd.DataFrame) -> str:
     lines = [
         "# Numerical stability at the extremes",
         "",
-        f"{len(table)} cases, each in a process of its own with at most {MOST_SECONDS} s of processor time and "
+        f"{len(table)} cases, each in its own process with at most {MOST_SECONDS} s of processor time and "
         f"{MOST_MEMORY} MiB, floating-point errors and warnings counting as failures. A case converges and keeps every "
         "bound (friction, contact pressure, gap, energy and dissipation not negative; friction below the steepest "
         "slope; contact forces that carry the load; the three routes to friction in agreement), or it is refused with "
         "a reason, or it fails.",
         "",
-        markdown(summary(table)),
+        markdown_table(summary(table), numeric=True),
         "",
         f"{len(remarked)} of the converged results carry a caution, which the column `reason` of the table holds.",
         "",
@@ -167,7 +180,7 @@ def page(table: pd.DataFrame) -> str:
         "",
         "One branch, slid far slower and far faster than it relaxes: friction follows v and 1/v over three decades.",
         "",
-        markdown([("", "plane", "kinematics", "pressure", "off by"), *map(_followed, followed)]),
+        markdown_table([("", "plane", "kinematics", "pressure", "off by"), *map(_followed, followed)], numeric=True),
         "",
         "All are kept." if not wrong else f"{len(wrong)} are not kept.",
     ]
@@ -188,10 +201,3 @@ def _kinds(reasons: Iterable[str]) -> dict[str, int]:
 def _kind(reason: str) -> str:
     words = [word for word in reason.split() if not word.startswith("scale")]
     return " ".join("#" if word[0].isdigit() or word.strip(":,;)") in ("inf", "nan") else word for word in words)
-
-
-def markdown(rows: list[tuple[str, ...]]) -> str:
-    """Return a Markdown table; the first row holds the headings."""
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    lines.insert(1, "|---" + "|---:" * (len(rows[0]) - 1) + "|")
-    return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""One case of the matrix of stability, tried in a process of its own with limits of time and memory.
+"""One case of the matrix of stability, run in its own process with limits of time and memory.
 
 A case ends in one of three ways. It converges, and its result keeps every bound (``stability.bounds``); it is refused,
 by InvalidInput or NotConverged, with a reason; or it fails: any other error, a floating-point or other warning, a
@@ -29,7 +29,7 @@ from rubfric.studies.stability.cases import Case
 OUTCOMES = ("converged", "refused", "failed")
 # Limits of a case: processor time and wall time, s, and memory, MiB.
 MOST_SECONDS, MOST_WALL, MOST_MEMORY = 120, 1800, 3072
-# Address space holds what is reserved and never touched; this only guards the machine.
+# Limit of the address space, which counts reserved memory too: it only guards the machine.
 _MOST_SPACE = 3 * MOST_MEMORY
 _MIB = 2**20
 
@@ -42,7 +42,7 @@ class Trial:
     ----------
     outcome : {"converged", "refused", "failed"}
     reason : str
-        Why it was refused or failed; what the result says of itself where it converged.
+        Why it was refused or failed; the warnings of the result where it converged.
     friction : tuple of float
         As of ``rubfric.studies.stability.bounds.Verdict``; NaN where there is none.
     closure, resolution : float
@@ -63,7 +63,7 @@ class Trial:
 
 
 def attempt(case: Case) -> Trial:
-    """Try a case here and now, without limits, warnings and floating-point errors being failures."""
+    """Run a case in this process, without limits; warnings and floating-point errors are failures."""
     try:
         with np.errstate(all="raise", under="ignore"), warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -86,17 +86,17 @@ def _judged(case: Case) -> Verdict:
 
 
 def confined(case: Case) -> Trial:
-    """Try a case in a process of its own, which is ended where it exceeds a limit."""
+    """Run a case in its own process, which is killed where it exceeds a limit."""
     reading, writing = os.pipe()
     child = os.fork()
-    if child == 0:  # nothing but the case may happen here, whatever it raises
+    if child == 0:  # leaves by _exit whatever the case raises
         try:
             os.close(reading)
             _answer(case, writing)
         finally:
             os._exit(0)
     os.close(writing)
-    answer = _heard(reading, child)
+    answer = _read_answer(reading, child)
     os.close(reading)
     _, status, used = os.wait4(child, 0)
     seconds, memory = used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0
@@ -107,7 +107,7 @@ def confined(case: Case) -> Trial:
 
 
 def _answer(case: Case, writing: int) -> None:
-    """Try the case under limits and write what became of it."""
+    """Run the case under limits and write how it ended."""
     resource.setrlimit(resource.RLIMIT_AS, (_MOST_SPACE * _MIB, _MOST_SPACE * _MIB))
     resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 1))
     found = attempt(case)
@@ -115,14 +115,14 @@ def _answer(case: Case, writing: int) -> None:
         stream.write(pickle.dumps(found))
 
 
-def _heard(reading: int, child: int) -> bytes | None:
-    """Return what the process wrote before it ended, or None; ends it where it takes too long."""
-    heard, until = b"", time.monotonic() + MOST_WALL
+def _read_answer(reading: int, child: int) -> bytes | None:
+    """Return what the process wrote before it ended, or None; kills it where it takes too long."""
+    received, until = b"", time.monotonic() + MOST_WALL
     while select.select([reading], [], [], max(0.0, until - time.monotonic()))[0]:
         part = os.read(reading, 2**16)
         if not part:
-            return heard or None
-        heard += part
+            return received or None
+        received += part
     os.kill(child, signal.SIGKILL)
     return None
 

@@ -64,7 +64,7 @@ def test_every_line_has_its_band(
 
 @pytest.mark.parametrize("module", [fig1, fig3])
 def test_campaign_without_errors_is_refused(make_campaign: Maker, module: ModuleType) -> None:
-    with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error, the est"):
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks friction_coefficient_error: gather"):
         module.draw(make_campaign().drop_vars("friction_coefficient_error"), [1], [5.0], ASPECTS)
 
 

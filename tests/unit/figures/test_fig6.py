@@ -81,7 +81,7 @@ def test_no_words_cover_each_other(
 
 
 def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
-    with pytest.raises(BrokenResult, match=r"^the campaign lacks the variable friction_coefficient_error"):
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks friction_coefficient_error"):
         fig6.draw(make_campaign().drop_vars("friction_coefficient_error"), 0.75)
 
 

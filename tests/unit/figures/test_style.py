@@ -21,23 +21,6 @@ def figure() -> Figure:
     return drawn
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (0.1, "0.1"),
-        (0.30000000000000004, "0.3"),
-        (10.0, "10"),
-        (1000.0, "1000"),
-        (10000.0, "10\N{NO-BREAK SPACE}000"),
-        (1234567.5, "1\N{NO-BREAK SPACE}234\N{NO-BREAK SPACE}567.5"),
-        (0.0, "0"),
-        (-12000.0, "-12\N{NO-BREAK SPACE}000"),
-    ],
-)
-def test_numbers_are_written_plainly(value: float, text: str) -> None:
-    assert style.written(value) == text
-
-
 @pytest.mark.parametrize("count", [2, 4, 8])
 def test_colours_grow_lighter_in_even_steps_of_grey(count: int) -> None:
     linear = np.array([colour[:3] for colour in style.colours(count)]) ** 2.2

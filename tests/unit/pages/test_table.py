@@ -9,7 +9,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from rubfric.pages.table import table_page, write_page
+from rubfric.pages.render import write_page
+from rubfric.pages.table import table_page
 
 
 class Cells(HTMLParser):

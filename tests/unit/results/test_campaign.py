@@ -16,7 +16,8 @@ from rubfric.results.dataset import write
 from rubfric.results.scalars import SCALARS
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 SHARED = {

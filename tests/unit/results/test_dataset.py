@@ -20,10 +20,11 @@ from rubfric.mechanics.theory.compression import pressed
 from rubfric.mechanics.theory.kinematics import Decision, decide
 from rubfric.results import dataset
 from rubfric.results.scalars import SCALARS
-from rubfric.results.warnings import cautions
+from rubfric.results.warnings import warnings
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 RUBBER = Material("small", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
@@ -315,8 +316,8 @@ def test_nominal_compression_is_that_on_a_flat_road(
     assert float(finite_full["nominal_compression"]) == pytest.approx(1.0 - pressed(RUBBER, 5.0, "stress")[0])
 
 
-def test_cautions_stand_among_the_attributes(full: xr.Dataset) -> None:
-    expected = cautions(solve_small(FULL, decide(FULL)), float(full["energy_closure"]))
+def test_warnings_stand_among_the_attributes(full: xr.Dataset) -> None:
+    expected = warnings(solve_small(FULL, decide(FULL)), float(full["energy_closure"]))
     assert len(expected) == 1
     assert full.attrs["warnings"].splitlines() == expected
 

@@ -57,9 +57,9 @@ def test_other_pressures_are_refused(campaign: xr.Dataset) -> None:
 
 
 def test_gaps_ratios_and_older_campaigns_are_refused(campaign: xr.Dataset) -> None:
-    with pytest.raises(InvalidInput, match=r"^aspect is 1, but the campaign has 0.5, 0.75$"):
+    with pytest.raises(InvalidInput, match=r"^height-to-width ratio 1 is not in the campaign, which has 0.5, 0.75$"):
         FrictionMap.from_campaign(campaign, 1.0)
-    with pytest.raises(InvalidInput, match=r"^scale is 3, but the campaign has 1, 2$"):
+    with pytest.raises(InvalidInput, match=r"^scale 3 is not in the campaign, which has 1, 2$"):
         FrictionMap.from_campaign(campaign, 0.75, scale=3)
     with pytest.raises(BrokenResult, match="lacks friction_coefficient_error: gather"):
         FrictionMap.from_campaign(campaign.drop_vars("friction_coefficient_error"), 0.75)

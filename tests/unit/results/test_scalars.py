@@ -9,7 +9,8 @@ from rubfric import simulation
 from rubfric.results.scalars import SCALARS, attributes, scalars
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 COARSE = Numerics(accuracy=0.1, contact_nodes=16, finite_contact_nodes=8, columns_min=64, finite_columns_min=32)
 RUBBER = Material("soft", 4.17, 0.49, (0.3, 0.4, 1e-6), (1e-3, 1e-5, 1e-12))

@@ -1,4 +1,4 @@
-"""What a reader should know of a scene: each caution where it applies, and only there."""
+"""Warnings about a scene: each where it applies, and only there."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.resolution import MOST_CELLS
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.results.warnings import cautions, faint
+from rubfric.results.warnings import below_noise_warning, warnings
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 RUBBER = Material("soft", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
 COARSE = Numerics(
@@ -42,19 +43,19 @@ def negative_ratio(paper_rubber: Material) -> Scene:
 
 
 def test_harmless_scenes_need_none() -> None:
-    assert cautions(small(SCENE), 0.0) == NOTHING
-    assert cautions(finite(SCENE), 0.0) == NOTHING
+    assert warnings(small(SCENE), 0.0) == NOTHING
+    assert warnings(finite(SCENE), 0.0) == NOTHING
 
 
 @pytest.mark.parametrize("solve", [small, finite])
 @pytest.mark.parametrize(("closure", "noted"), [(0.0099, False), (0.0101, True)])
 def test_routes_that_differ_are_noted(solve: Solve, closure: float, noted: bool) -> None:
     expected = "The three friction coefficients differ by 1.0%: the mesh does not resolve this scene."
-    assert cautions(solve(SCENE), closure) == ([expected] if noted else NOTHING)
+    assert warnings(solve(SCENE), closure) == ([expected] if noted else NOTHING)
 
 
 def test_negative_effective_poissons_ratio_is_noted(paper_rubber: Material) -> None:
-    (note,) = cautions(small(negative_ratio(paper_rubber)), 0.0)
+    (note,) = warnings(small(negative_ratio(paper_rubber)), 0.0)
     ratio = float(paper_rubber.effective_poissons_ratio(3e6))
     assert ratio < 0.0
     assert note.startswith(f"The effective Poisson's ratio is {ratio:.2f}: the shear modulus")
@@ -62,25 +63,25 @@ def test_negative_effective_poissons_ratio_is_noted(paper_rubber: Material) -> N
 
 
 def test_proportional_bulk_avoids_that_note(paper_rubber: Material) -> None:
-    assert cautions(small(negative_ratio(replace(paper_rubber, bulk="proportional"))), 0.0) == NOTHING
+    assert warnings(small(negative_ratio(replace(paper_rubber, bulk="proportional"))), 0.0) == NOTHING
 
 
 @pytest.mark.parametrize(("frequency", "noted"), [(4.2e5, False), (5e5, True)])
 def test_poissons_ratio_is_noted_where_it_is_negative(paper_rubber: Material, frequency: float, noted: bool) -> None:
     scene = replace(SCENE, velocity=frequency / 35.0, material=paper_rubber)
     assert (float(paper_rubber.effective_poissons_ratio(frequency)) < 0.0) == noted
-    assert ("Poisson" in "".join(cautions(small(scene), 0.0))) == noted
+    assert ("Poisson" in "".join(warnings(small(scene), 0.0))) == noted
 
 
 def test_speed_near_that_of_shear_waves_is_noted() -> None:
     heavy = replace(SCENE, material=replace(RUBBER, density=1e-4))
     for solution in (small(heavy), finite(heavy)):
-        (note,) = cautions(solution, 0.0)
-        assert note.endswith("of the shear-wave speed: inertia is neglected, but would matter.")
+        (note,) = warnings(solution, 0.0)
+        assert note.endswith("of the shear-wave speed: inertia is neglected, but matters there.")
 
 
 def test_estimate_of_what_finite_strain_changes_is_noted_from_the_accuracy_on() -> None:
-    accurate, indicative = (cautions(small(SCENE, correction), 0.0) for correction in (0.0099, 0.0101))
+    accurate, indicative = (warnings(small(SCENE, correction), 0.0) for correction in (0.0099, 0.0101))
     assert accurate == NOTHING
     compression = 0.1 / RUBBER.confined_modulus("stress")
     assert indicative == [
@@ -91,26 +92,26 @@ def test_estimate_of_what_finite_strain_changes_is_noted_from_the_accuracy_on() 
 
 def test_accuracy_asked_for_decides_what_is_noted() -> None:
     loose = replace(SCENE, numerics=replace(COARSE, accuracy=0.1))
-    assert cautions(small(loose, 0.05), 0.0) == NOTHING
-    assert len(cautions(small(loose, 0.15), 0.0)) == 1
+    assert warnings(small(loose, 0.05), 0.0) == NOTHING
+    assert len(warnings(small(loose, 0.15), 0.0)) == 1
 
 
 @pytest.mark.parametrize(("share", "noted"), [(0.99, False), (1.01, True)])
 def test_compression_to_nothing_is_no_prediction(share: float, noted: bool) -> None:
     scene = replace(SCENE, pressure=share * RUBBER.confined_modulus("stress"))
     expected = (
-        "The load presses the block by 101% of its height, which small strain cannot mean: the number is no "
+        "The load presses the block by 101% of its height, more than small strain can represent: the number is no "
         "prediction; kinematics: finite gives one."
     )
-    assert cautions(small(scene), 0.0) == ([expected] if noted else NOTHING)
+    assert warnings(small(scene), 0.0) == ([expected] if noted else NOTHING)
     # One sentence is enough where small strain means nothing.
-    assert len(cautions(small(scene, 0.5), 0.0)) == 1
+    assert len(warnings(small(scene, 0.5), 0.0)) == 1
 
 
 def test_finite_strain_has_no_such_limits() -> None:
     solution = finite(replace(SCENE, pressure=1.5 * RUBBER.confined_modulus("stress")))
     assert solution.compression < 1.0
-    assert cautions(solution, 0.0) == NOTHING
+    assert warnings(solution, 0.0) == NOTHING
 
 
 @pytest.mark.parametrize(("stretch", "noted"), [(0.11, False), (0.09, True)])
@@ -118,7 +119,7 @@ def test_surface_about_to_fold_is_noted(monkeypatch: pytest.MonkeyPatch, stretch
     solution = finite(SCENE)
     monkeypatch.setattr(FiniteSolution, "surface_stretch", np.full(solution.block.columns, stretch))
     expected = ["The surface is about to fold: finer meshes will differ."]
-    assert cautions(solution, 0.0) == (expected if noted else NOTHING)
+    assert warnings(solution, 0.0) == (expected if noted else NOTHING)
 
 
 @pytest.mark.parametrize("solve", [small, finite])
@@ -127,7 +128,7 @@ def test_contact_that_the_mesh_cannot_resolve_is_noted(solve: Solve) -> None:
     solution = solve(replace(SCENE, numerics=few))
     touching = np.count_nonzero(solution.contact.touching)
     assert touching < 0.9 * 32
-    assert cautions(solution, 0.0) == [
+    assert warnings(solution, 0.0) == [
         f"Only {touching} surface nodes touch the road, fewer than asked for: raise numerics.columns_max."
     ]
 
@@ -143,7 +144,7 @@ def test_accuracy_that_is_not_met_is_noted(solve: Solve) -> None:
             f"The accuracy asked for, {accuracy:.2%}, is not met: the estimated error is {error:.2%} after "
             f"{len(solution.meshes)} meshes; raise numerics.refinements."
         )
-        assert cautions(asked, 0.0) == ([note] if noted else NOTHING)
+        assert warnings(asked, 0.0) == ([note] if noted else NOTHING)
 
 
 @pytest.mark.parametrize(
@@ -157,18 +158,18 @@ def test_what_would_help_is_told(solve: Solve, remedy: str) -> None:
     solution = solve(replace(SCENE, numerics=replace(COARSE, refinements=0)))
     numerics = replace(SCENE.numerics, accuracy=1e-6, refinements=len(solution.meshes))
     asked = replace(solution, scene=replace(SCENE, numerics=numerics))
-    assert [line for line in cautions(asked, 0.0) if line.endswith(f"meshes; {remedy}.")]
+    assert [line for line in warnings(asked, 0.0) if line.endswith(f"meshes; {remedy}.")]
 
 
 @pytest.mark.parametrize("solve", [small, finite])
 def test_scene_without_friction_has_no_relative_accuracy(solve: Solve) -> None:
     elastic = Material("elastic", 4.17, 0.49, (), ())
-    assert cautions(solve(replace(SCENE, material=elastic)), 0.0) == NOTHING
+    assert warnings(solve(replace(SCENE, material=elastic)), 0.0) == NOTHING
 
 
-def test_cautions_add_up(paper_rubber: Material) -> None:
+def test_warnings_add_up(paper_rubber: Material) -> None:
     scene = replace(negative_ratio(replace(paper_rubber, density=1e-3)), numerics=replace(COARSE, columns_max=64))
-    notes = cautions(small(scene, 0.5), 0.3)
+    notes = warnings(small(scene, 0.5), 0.3)
     subjects = ("Poisson's ratio", "sliding speed", "Finite strain", "three friction coefficients")
     subjects += ("accuracy asked for", "surface nodes")
     assert len(notes) == len(subjects)
@@ -177,6 +178,6 @@ def test_cautions_add_up(paper_rubber: Material) -> None:
 
 @pytest.mark.parametrize(("friction", "told"), [(1e-9, True), (1e-6, False), (0.1, False), (0.0, False)])
 def test_friction_that_cannot_be_told_from_zero_says_so(friction: float, told: bool) -> None:
-    said = faint(friction, 5e-7)
+    said = below_noise_warning(friction, 5e-7)
     assert bool(said) == told
-    assert all("cannot tell from zero" in sentence for sentence in said)
+    assert all("cannot distinguish from zero" in sentence for sentence in said)

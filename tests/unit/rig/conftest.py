@@ -65,12 +65,17 @@ def write_file(tmp_path: Path) -> FileWriter:
         headings: Sequence[str] = HEADINGS,
         separator: str = ",",
         decimal: str = ".",
+        minus: str = "-",
         before: str = "",
         after: str = "",
         encoding: str = "utf-8",
         name: str = "run.csv",
     ) -> str:
-        rows = "\n".join(separator.join(map(repr, row)) for row in readings.T.tolist()).replace(".", decimal)
+        rows = (
+            "\n".join(separator.join(map(repr, row)) for row in readings.T.tolist())
+            .replace(".", decimal)
+            .replace("-", minus)
+        )
         text = f"{before}{separator.join(headings)}\n{rows}\n{after}"
         path = tmp_path / name
         path.write_bytes(text.encode(encoding))

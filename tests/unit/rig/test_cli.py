@@ -81,7 +81,11 @@ def test_settings_come_from_the_yaml_file(simulated: Path, tmp_path: Path, capsy
         (["simulate", "--pressure", 1, "--weight", 0.01, "-o", "x.csv"], 2, "weight is 0.01 kg, which pulls with"),
         (["simulate", "--pressure", 1, "--speed", 9000, "-o", "x.csv"], 2, "outside the speeds simulated"),
         (["simulate", "--pressure", 1, "--weight", 1, "--area", 0, "-o", "x.csv"], 2, "rig.virtual.area is 0 mm²"),
-        (["simulate", "--pressure", 1, "--weight", 1, "--scale", 9, "-o", "x.csv"], 2, "scale is 9, but the campaign"),
+        (
+            ["simulate", "--pressure", 1, "--weight", 1, "--scale", 9, "-o", "x.csv"],
+            2,
+            "scale 9 is not in the campaign",
+        ),
         (["simulate", "--pressure", 1, "--weight", 1, "-o", "."], 2, "--output is the folder"),
     ],
 )

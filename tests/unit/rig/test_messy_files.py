@@ -51,6 +51,7 @@ def same(found: Reduced, tidy: np.ndarray, tolerance: float = 1e-9) -> None:
         {"separator": "\t"},
         {"separator": ";"},
         {"separator": ", "},
+        {"minus": "\N{MINUS SIGN}"},
         {"separator": " ", "headings": ("Time_s", "Fn_N", "Ft_N", "x_mm")},
         {"before": "Logger 3000\nDate: 2026-11-22, 13:20\n\nRate;500\n"},
         {"before": "a,b,c,d\n"},
@@ -192,7 +193,7 @@ def test_rows_that_stand_twice_count_once(
 ) -> None:
     found = reduced(write_file(np.concatenate((readings, readings[:, 500:700]), axis=1)), settings)
     same(found, tidy)
-    assert any("rows that stand twice" in note for note in found.notes)
+    assert any("repeated rows" in note for note in found.notes)
 
 
 def test_clock_that_begins_again_is_refused(write_file: FileWriter, readings: np.ndarray, settings: Settings) -> None:
@@ -206,7 +207,7 @@ def test_equal_time_stamps_are_averaged(write_file: FileWriter, readings: np.nda
     coarse = readings.copy()
     coarse[0] = np.floor(coarse[0] * 100.0) / 100.0
     found = reduced(write_file(coarse), settings)
-    assert any("time stamps stand more than once" in note for note in found.notes)
+    assert any("repeated time stamps" in note for note in found.notes)
     assert found.points[0].speed == pytest.approx(5.0, rel=1e-3)
 
 
@@ -301,7 +302,10 @@ REFUSED = [
         {"headings": ("time (s)", "normal (N)", "vertical load (N)", "x (mm)")},
         "has 2 columns that may be normal; its columns are",
     ),
-    ({"headings": ("time (s)", "normal (V)", "traction (N)", "x (mm)")}, "'normal .V.' in 'V', which is no unit of n"),
+    (
+        {"headings": ("time (s)", "normal (V)", "traction (N)", "x (mm)")},
+        "column of normal, is 'V', but must be one of N, kN",
+    ),
     ({"separator": ",", "decimal": ","}, "has no line of headings above rows of at least 4 numbers"),
     ({"headings": ("1", "2", "3", "4")}, "has no line of headings above rows of at least 4 numbers"),
 ]

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from rubfric.config.rigchoice import RigChoice, VirtualRig
+from rubfric.config.models import RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.files import rig_files
@@ -18,7 +17,8 @@ from rubfric.rig.settings import Settings
 from rubfric.rig.sled import GRAVITY, Sled
 from rubfric.rig.virtual import between, measure, parts_of, plan, simulate, targets
 
-RIG = VirtualRig(100.0, "rubber", 5.0, 100.0, 300.0, 0.5, 0.005, 0.2, 0.002, 0.005, 1000.0, 1)
+VALUES = (100, "rubber", 5, 100, 300, 0.5, 0.005, 0.2, 0.002, 0.005, 1000, 1)
+RIG = VirtualRig(**dict(zip(VirtualRig.model_fields, VALUES, strict=True)))  # type: ignore[arg-type]
 
 
 def test_targets_lie_on_the_scenes_and_between_them(friction: FrictionMap) -> None:
@@ -107,10 +107,10 @@ def test_file_under_a_weight_too_light_or_for_a_speed_too_high_is_not_written(
 
 
 def test_rope_pulls_with_what_the_weight_does_not_need_itself(friction: FrictionMap, tmp_path: Path) -> None:
-    rope = replace(RIG, traction="rope")
+    rope = RIG.model_copy(update={"traction": "rope"})
     sled, sensors = parts_of(rope)
     assert (sled.mass, sensors.traction, sensors.sampling) == (5.0, "rope", 1000.0)
-    simulate(friction, replace(rope, force_noise=0.0), 1.0, 8.0, None, tmp_path / "run.csv")
+    simulate(friction, rope.model_copy(update={"force_noise": 0.0}), 1.0, 8.0, None, tmp_path / "run.csv")
     values = np.loadtxt(tmp_path / "run.csv", delimiter=",", comments=["#", "time"])
     time, _, traction, place = values.T
     held = (time > 1.6) & (time < 1.9)
@@ -123,7 +123,9 @@ def test_rope_pulls_with_what_the_weight_does_not_need_itself(friction: Friction
 
 
 def choice(**changes: object) -> RigChoice:
-    return replace(RigChoice((), None, (1.0,), (1.0,), RIG), **changes)  # type: ignore[arg-type]
+    return RigChoice.read(
+        "rig", {"data": (), "columns": None, "pressures": [1], "speeds": [1], "virtual": RIG} | changes
+    )
 
 
 def test_files_of_the_rig_are_found_or_named(tmp_path: Path) -> None:
@@ -147,6 +149,4 @@ def test_files_of_the_rig_are_found_or_named(tmp_path: Path) -> None:
 
 
 def test_choice_survives_the_way_into_a_job() -> None:
-    from rubfric.config.rigchoice import read_rig
-
-    assert read_rig(asdict(choice())) == choice()
+    assert RigChoice.read("rig", choice().model_dump()) == choice()

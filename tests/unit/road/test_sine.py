@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
-from rubfric.road.sine import SineScale, scales_from_config
+from rubfric.road.sine import SineScale
 
 
 def test_coarsest_scale_of_the_paper(paper_road: tuple[SineScale, ...]) -> None:
@@ -44,37 +44,12 @@ def test_flat_road_is_legal() -> None:
 @pytest.mark.parametrize(
     ("amplitude", "wavenumber", "complaint"),
     [
-        (-0.1, 35.0, r"^amplitude of the road is -0.1 mm, but must be at least 0$"),
-        (0.1, 0.0, r"^wavenumber of the road is 0 1/mm, but must be greater than 0$"),
-        (0.1, float("inf"), r"^wavenumber of the road is inf, but must be a finite number$"),
-        ("1e-2", 35.0, r"^amplitude of the road is the text '1e-2', .* write 1\.0e-2\)$"),
+        (-0.1, 35.0, r"^road\.amplitude is -0.1 mm, but must be at least 0$"),
+        (0.1, 0.0, r"^road\.wavenumber is 0 1/mm, but must be greater than 0$"),
+        (0.1, float("inf"), r"^road\.wavenumber is inf, but must be a finite number$"),
+        ("1e-2", 35.0, r"^road\.amplitude is the text '1e-2', .* write 1\.0e-2\)$"),
     ],
 )
 def test_bad_scales_are_refused(amplitude: float, wavenumber: float, complaint: str) -> None:
     with pytest.raises(InvalidInput, match=complaint):
         SineScale(amplitude, wavenumber)
-
-
-def test_road_is_read_from_a_config_in_its_order() -> None:
-    entry = [{"amplitude": 0.015, "wavenumber": 35}, {"amplitude": 0.006, "wavenumber": 80}]
-    assert scales_from_config("paper", entry) == (SineScale(0.015, 35.0), SineScale(0.006, 80.0))
-
-
-@pytest.mark.parametrize("entry", [[], None, 3.0, {"amplitude": 0.1, "wavenumber": 1.0}])
-def test_road_without_a_list_of_scales_is_refused(entry: object) -> None:
-    with pytest.raises(InvalidInput, match=r"^roads\.paper is .*, but must be a list of at least one scale$"):
-        scales_from_config("paper", entry)
-
-
-@pytest.mark.parametrize(
-    ("scale", "complaint"),
-    [
-        ({"amplitude": 0.1}, r"^roads\.paper\[1\] lacks the key 'wavenumber'$"),
-        ({"amplitude": -1.0, "wavenumber": 1.0}, r"^roads\.paper\[1\]\.amplitude is -1 mm"),
-        ({"amplitude": 1.0, "wavenumber": True}, r"^roads\.paper\[1\]\.wavenumber is True, but must be a number"),
-        ({"amplitude": 1.0, "wavelength": 1.0}, r"^roads\.paper\[1\] has the unknown key 'wavelength'"),
-    ],
-)
-def test_bad_entries_are_named_by_their_place(scale: object, complaint: str) -> None:
-    with pytest.raises(InvalidInput, match=complaint):
-        scales_from_config("paper", [{"amplitude": 0.1, "wavenumber": 1.0}, scale])

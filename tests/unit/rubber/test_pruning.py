@@ -10,7 +10,8 @@ import pytest
 
 from rubfric.rubber.material import Material
 from rubfric.rubber.pruning import fold, fold_scene
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 BULK = pytest.mark.parametrize("bulk", ["elastic", "proportional"])

@@ -26,8 +26,8 @@ def tables(tmp_path: Path) -> list[Path]:
 
 
 def test_largest_error_is_relative_and_has_its_place(tables: list[Path]) -> None:
-    told = findings(tables)
-    assert told == [
+    lines = findings(tables)
+    assert lines == [
         "largest estimated error of friction 1.5 %, on scale 12 at 100.0 mm/s, 5.0 MPa, height/width 0.75",
         "1 of 4 scenes carry a warning: column warnings of the tables, and the scenes' logs",
     ]
@@ -55,7 +55,7 @@ def test_road_without_friction_has_no_largest_error(tables: list[Path]) -> None:
     assert findings(tables[:1]) == ["none of 2 scenes carries a warning"]
 
 
-def test_highest_friction_is_told_with_its_error_and_place(tmp_path: Path) -> None:
+def test_highest_friction_has_its_error_and_place(tmp_path: Path) -> None:
     table = tmp_path / "friction_total.csv"
     table.write_text(
         "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n"

@@ -220,7 +220,7 @@ def test_failures_among_many_threads_hit_their_own_jobs_only(place: Workplace) -
 def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -> None:
     output, master_script = place.folder / "one.txt", place.folder / "master.py"
     master_script.write_text(
-        "import sys; from rubfric import jobs\n"
+        "import sys; from rubfric.runner import jobs\n"
         "open('runs.txt', 'a').write('run')\n"
         f"jobs.run({str(place.script)!r}, {str(place.log('one'))!r}, output={str(output)!r})\n"
         "print('done', flush=True); sys.stdin.read()"

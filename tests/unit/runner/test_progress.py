@@ -1,4 +1,4 @@
-"""Where a run stands: counts, the time left, the slowest, and what failed."""
+"""Progress of a run: counts, the time left, the slowest, and what failed."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_line_tells_what_is_done_of_what_has_begun(clock: Clock) -> None:
     assert progress.line() == "2 of 3 scenes, 0 of 1 march; slowest b 3.5 s"
 
 
-def test_last_scene_and_last_march_are_told_from_the_rest(clock: Clock) -> None:
+def test_last_scene_and_last_march_are_distinguished_from_the_rest(clock: Clock) -> None:
     progress = Progress({"scene": 2, "march": 1, "total_table": 1}, clock)
     last = []
     for number, rule in enumerate(["scene", "march", "total_table", "scene"]):
@@ -128,7 +128,7 @@ def test_failures_are_kept_until_another_attempt_succeeds(clock: Clock) -> None:
     for number, name in enumerate(["a", "b"]):
         progress.start(number, "scene", name, [f"{name}.log"])
         assert progress.fail(number, [f"{name}.log", "cluster.log"]) is not None
-    assert progress.fail(1) is None  # told twice
+    assert progress.fail(1) is None  # reported twice
     assert "2 failed" in progress.line()
     progress.start(0, "scene", "a", ["a.log"])
     progress.finish(0)
@@ -163,7 +163,7 @@ def test_durations(seconds: float, expected: str) -> None:
 @pytest.mark.parametrize(
     ("count", "left"), [(4, "about 5 s"), (63, "about 60 s"), (183, "about 3 min"), (20003, "about 5.6 h")]
 )
-def test_time_left_is_told_as_roughly_as_it_is_known(clock: Clock, count: int, left: str) -> None:
+def test_time_left_is_given_as_roughly_as_it_is_known(clock: Clock, count: int, left: str) -> None:
     progress = Progress({"scene": count}, clock)
     run(progress, clock, [("scene", 1.0)] * 3)
     assert f"; {left} left;" in progress.line()

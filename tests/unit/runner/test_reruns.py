@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +12,8 @@ import pytest
 
 import rubfric
 import rubfric.runner.reruns
-from rubfric.runner.reruns import sources, stamp
+from rubfric.errors import BrokenResult
+from rubfric.runner.reruns import check_records, sources, stamp
 
 PACKAGE = Path(rubfric.__file__).resolve().parent
 MODULES = [
@@ -21,18 +23,17 @@ MODULES = [
     "rubfric.config.campaign",
     "rubfric.results.summary",
 ]
-FIGURES = [f"rubfric.figures.{name}" for name in ("fig1", "fig2", "fig3", "fig4", "fig6", "fig7", "fig8", "fig9")]
 
 
 def imported(module: str) -> set[str]:
-    """Return the files of the package that a fresh interpreter has run after importing a module."""
+    """Return the modules of the package that a fresh interpreter has run after importing one, by their files."""
     code = (
         f"import sys, {module}\n"
         "loaded = [value for name, value in sys.modules.items() if name.startswith('rubfric.')]\n"
         "print('\\n'.join(value.__file__ for value in loaded))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    return set(done.stdout.split())
+    return {path for path in done.stdout.split() if not path.endswith("__init__.py")}
 
 
 @pytest.mark.parametrize("module", [*MODULES, "rubfric.figures.fig7"])
@@ -56,25 +57,25 @@ def test_sources_are_absolute_files_of_the_package() -> None:
         assert path.is_absolute()
         assert path.is_file()
         assert path.is_relative_to(PACKAGE)
-        assert path != PACKAGE / "__init__.py"
-
-
-def test_package_of_figures_counts_for_each_figure() -> None:
-    for module in FIGURES:
-        assert PACKAGE / "figures" / "__init__.py" in sources(module)
+        assert path.name != "__init__.py"
 
 
 def test_scenes_do_not_depend_on_what_comes_after_them() -> None:
     files = {path.relative_to(PACKAGE).as_posix() for path in sources("rubfric.simulation")}
-    after = ("campaign", "collection", "tables", "multiscale", "summary", "cli", "sources", "jobs", "warm")
-    assert not files & {f"{name}.py" for name in after}
-    assert not {name for name in files if name.startswith("figures/")}
-    assert {"contact.py", "block.py", "steady.py", "energy.py", "dataset.py", "checks.py"} <= files
+    after = {f"results/{name}.py" for name in ("campaign", "tables", "scales", "summary")} | {"cli.py", "marching.py"}
+    assert not files & after
+    assert not {name for name in files if name.startswith(("figures/", "pages/", "rig/", "runner/", "studies/"))}
+    assert {
+        f"mechanics/{name}.py" for name in ("block/contact", "block/block", "small/steady", "finite/energy")
+    } <= files
+    assert {"results/dataset.py", "checks.py"} <= files
 
 
-@pytest.mark.parametrize("module", ["rubfric.simulations", "rubfric.figures.fig99", "numpy", "rubfric", ""])
+@pytest.mark.parametrize(
+    "module", ["rubfric.simulations", "rubfric.figures.fig99", "numpy", "rubfric", "rubfric.figures", ""]
+)
 def test_unknown_module_is_refused(module: str) -> None:
-    with pytest.raises(ModuleNotFoundError, match=f"^{module} is no module of rubfric$"):
+    with pytest.raises(ModuleNotFoundError, match=f"^{module} is not a module of rubfric$"):
         sources(module)
 
 
@@ -133,3 +134,20 @@ def test_stamp_that_was_lost_or_damaged_is_made_again(package: Path, tmp_path: P
         assert stamp(tmp_path, "rubfric.first", "rubfric.third") == str(place)
         assert place.read_text() == text
     assert place.stat().st_mtime == 1e9
+
+
+def test_records_of_text_pass_and_so_does_a_missing_folder(tmp_path: Path) -> None:
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "a").write_text('{"rule": "scene", "rubber": "weiß"}')
+    (tmp_path / "b").write_bytes(b'{"rule": "sc')
+    (tmp_path / "c").write_bytes(b"")
+    check_records(tmp_path)
+    check_records(tmp_path / "nowhere")
+
+
+def test_records_that_are_not_text_are_named(tmp_path: Path) -> None:
+    (tmp_path / "a").write_text("{}")
+    (tmp_path / "b").write_bytes(b"\xff\xfe{}")
+    sentence = f"Snakemake's record {tmp_path}/b is damaged: delete all of them (rm -r {tmp_path}) and run again"
+    with pytest.raises(BrokenResult, match=f"^{re.escape(sentence)}"):
+        check_records(tmp_path)

@@ -72,3 +72,16 @@ def test_start_from_steady_sliding_slides_at_once(paper_scene: SceneMaker) -> No
 def test_nonsense_is_named(given: dict[str, object], message: str) -> None:
     with pytest.raises(InvalidInput, match=message):
         Procedure(**given)
+
+
+def test_numbers_are_kept_in_canonical_form(paper_scene: SceneMaker) -> None:
+    given = Procedure(wavelengths=2.0, columns=64.0, saturation=0.1 + 0.2)  # type: ignore[arg-type]
+    assert given == Procedure(wavelengths=2, saturation=0.3)
+    assert type(given.wavelengths) is type(given.columns) is int
+    assert len(given.steps(paper_scene(100.0, 0.5)).phase) == 32 + 16 + 64 + 256
+
+
+def test_a_march_has_ten_million_steps_at_most() -> None:
+    assert Procedure(wavelengths=10**5, steps_per_wavelength=100).wavelengths == 10**5
+    with pytest.raises(InvalidInput, match=r"^procedure\.wavelengths is 100001, but must be at most 100000$"):
+        Procedure(wavelengths=10**5 + 1, steps_per_wavelength=100)

@@ -3,16 +3,14 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import asdict, fields, replace
-from pathlib import Path
 
 import pytest
-import yaml
 
-from rubfric.config.presets import read_numerics
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 
@@ -138,33 +136,18 @@ def test_bad_scenes_are_refused(paper_scene: SceneMaker, change: dict[str, objec
     ("change", "complaint"),
     [
         ({"contact_nodes": 3}, r"^numerics\.contact_nodes is 3, but must be a whole number of at least 4$"),
-        (
-            {"finite_contact_nodes": 3},
-            r"^numerics\.finite_contact_nodes is 3, but must be a whole number of at least 4$",
-        ),
-        ({"contact_nodes": 5000}, r"^numerics\.contact_nodes is 5000, but must be at most 4096$"),
-        ({"finite_contact_nodes": 5000}, r"^numerics\.finite_contact_nodes is 5000, but must be at most 4096$"),
         ({"accuracy": 0.0}, r"^numerics\.accuracy is 0, but must be at least 1e-06$"),
-        ({"accuracy": 0.6}, r"^numerics\.accuracy is 0\.6, but must be at most 0\.5$"),
-        ({"finite_columns_min": 100}, r"^numerics\.finite_columns_min is 100, but must be a multiple of 8$"),
-        ({"finite_columns_min": 2**16}, r"^numerics\.columns_max is 32768, but must be at least 65536$"),
-        ({"columns_min": 100}, r"^numerics\.columns_min is 100, but must be a multiple of 8$"),
+        (
+            {"finite_columns_min": 2**16},
+            r"^numerics\.columns_max is 32768, but must be .* at least 65536$",
+        ),
         ({"columns_max": 8.5}, r"^numerics\.columns_max is 8\.5, but must be a whole number"),
-        ({"columns_max": 120}, r"^numerics\.columns_max is 120, but must be at least 128$"),
-        ({"output_columns": 0}, r"^numerics\.output_columns is 0, but must be a whole number"),
+        ({"columns_max": 120}, r"^numerics\.columns_max is 120, but must be a whole number of at least 128$"),
         ({"row_growth": 1.0}, r"^numerics\.row_growth is 1, but must be at least 1\.00001$"),
-        ({"row_growth": 3.5}, r"^numerics\.row_growth is 3\.5, but must be at most 3$"),
-        ({"first_row": 0.0}, r"^numerics\.first_row is 0, but must be at least 0\.01$"),
         ({"first_row": "1e0"}, r"^numerics\.first_row is the text '1e0'"),
-        ({"first_row": 101.0}, r"^numerics\.first_row is 101, but must be at most 100$"),
-        ({"refinements": -1}, r"^numerics\.refinements is -1, but must be a whole number of at least 0$"),
-        ({"refinements": 13}, r"^numerics\.refinements is 13, but must be at most 12$"),
         ({"refinements": 1.5}, r"^numerics\.refinements is 1\.5, but must be a whole number of at least 0$"),
         ({"dilatation": "point"}, r"^numerics\.dilatation is 'point', but must be one of auto, pointwise, mean"),
-        ({"folding": -0.1}, r"^numerics\.folding is -0\.1, but must be at least 0$"),
         ({"folding": 1.1}, r"^numerics\.folding is 1\.1, but must be at most 1$"),
-        ({"tolerance": 1e-13}, r"^numerics\.tolerance is 1e-13, but must be at least 1e-12$"),
-        ({"tolerance": 0.1}, r"^numerics\.tolerance is 0\.1, but must be at most 0\.01$"),
     ],
 )
 def test_bad_numerics_are_refused(change: dict[str, object], complaint: str) -> None:
@@ -202,12 +185,6 @@ def test_kinematics_is_left_to_the_program_by_default(paper_scene: SceneMaker) -
 def test_name_does_not_tell_the_kinematics(paper_scene: SceneMaker) -> None:
     # A campaign has one kinematics, and a name its place in it.
     assert paper_scene(1.0, 5.0, kinematics="finite").name == paper_scene(1.0, 5.0, kinematics="small").name
-
-
-def test_config_and_code_have_the_same_numerics() -> None:
-    config = yaml.safe_load((Path(__file__).parents[3] / "config/config.yaml").read_text(encoding="utf-8"))
-    chosen, presets = read_numerics(config["numerics"], config["presets"])
-    assert chosen == presets["standard"] == Numerics()
 
 
 def test_parameters_are_the_callers_own(paper_scene: SceneMaker) -> None:

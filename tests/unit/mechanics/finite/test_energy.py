@@ -25,7 +25,8 @@ from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 Real = NDArray[np.float64]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -16,7 +16,8 @@ from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 RUBBER = Material("soft", 4.17, 0.49, (0.3, 0.4), (1e-3, 1e-5))
 COARSE = Numerics(accuracy=0.5, finite_contact_nodes=8, finite_columns_min=64, row_growth=1.4)

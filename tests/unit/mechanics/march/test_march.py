@@ -15,8 +15,9 @@ from rubfric.errors import BrokenResult, NotConverged
 from rubfric.mechanics.march.march import COLUMNS, FRESH, March, wavelength_means
 from rubfric.mechanics.march.step import Outcome
 from rubfric.rubber.material import Material
+from rubfric.scene.numerics import Numerics
 from rubfric.scene.procedure import PHASES, Procedure
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 KINDS = pytest.mark.parametrize("kinematics", ["small", "finite"])

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.mechanics.small import energy as smallenergy
 from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import SmallSolution, solve_small
@@ -15,7 +14,8 @@ from rubfric.mechanics.steady.energies import output_stride
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rubfric.config.presets import fineness
 from rubfric.errors import NotConverged
 from rubfric.mechanics.block import contact as contact_module
 from rubfric.mechanics.small import steady as smallsteady
@@ -14,7 +13,8 @@ from rubfric.mechanics.small.steady import SmallSolution, solve_small
 from rubfric.mechanics.small.strain import synthesise
 from rubfric.mechanics.theory import layer as reference
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])

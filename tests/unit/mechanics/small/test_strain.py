@@ -7,12 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 from rubfric import simulation as steady
-from rubfric.config.presets import fineness
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.small.response import respond
 from rubfric.mechanics.small.strain import StrainHarmonics, harmonic_strain, synthesise
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 Complex = NDArray[np.complex128]

@@ -17,7 +17,8 @@ from rubfric.mechanics.steady.error import allowance, discretisation_error, fric
 from rubfric.mechanics.steady.resolution import Resolution
 from rubfric.mechanics.steady.solution import Friction, OnMesh
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 COARSE, FINE = Resolution(128, 1.2), Resolution(256, 1.1)  # cells half as large

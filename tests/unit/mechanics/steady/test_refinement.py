@@ -8,13 +8,13 @@ from collections.abc import Callable
 import pytest
 from synthetic_meshes import FRICTION, Solver, Synthetic, cell_size, power_law
 
-from rubfric.config.presets import fineness
 from rubfric.errors import NotConverged
 from rubfric.mechanics.steady.error import allowance, discretisation_error
 from rubfric.mechanics.steady.refinement import refined
 from rubfric.mechanics.steady.resolution import MOST_CELLS, Resolution, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics, fineness
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 EXACT = power_law(0.0, 1.0)

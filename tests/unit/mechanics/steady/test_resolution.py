@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from rubfric.mechanics.steady.resolution import COLUMN_STEP, Resolution, fit, most_columns, needed
-from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 SceneMaker = Callable[..., Scene]
 KINDS = pytest.mark.parametrize("finite", [False, True])

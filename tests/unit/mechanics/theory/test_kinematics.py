@@ -7,7 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from rubfric.mechanics.theory.kinematics import decide, estimated_correction
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 
 SceneMaker = Callable[..., Scene]
 

@@ -21,7 +21,8 @@ from rubfric.mechanics.theory.limits import (
 )
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 RUBBER = Material("plain", 4.17, 0.49, (0.5,), (1e-3,))

@@ -16,10 +16,10 @@ import xarray as xr
 
 import rubfric
 from rubfric.figures import style
-from rubfric.pages.explorer.assets import assets
 from rubfric.pages.explorer.data import payload
-from rubfric.pages.explorer.page import page, write_page
+from rubfric.pages.explorer.page import page
 from rubfric.pages.explorer.palette import palette
+from rubfric.pages.render import assets
 
 CampaignMaker = Callable[..., xr.Dataset]
 NAME = "</script><img src=x onerror=alert(1)> & $title"
@@ -68,26 +68,21 @@ def test_every_asset_is_packaged() -> None:
     root = Path(rubfric.__file__).resolve().parents[1]
     patterns = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["rubfric"]
     folder = root / "rubfric"
-    assert assets()
-    for path in assets():
+    used = {path for name in ("table", "claims", "explorer") for path in assets(name)}
+    for path in used:
         assert any(fnmatch(path.relative_to(folder).as_posix(), pattern) for pattern in patterns)
-    others = [path for path in (folder / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")]
-    assert sorted(others) == sorted(assets())
+    assert used == {path for path in (folder / "pages").rglob("*.*") if path.suffix in (".js", ".css", ".html")}
 
 
-@pytest.mark.parametrize("path", [path for path in assets() if path.suffix == ".js"], ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", [path for path in assets("explorer") if path.suffix == ".js"], ids=lambda path: path.stem
+)
 def test_scripts_are_short_and_make_no_markup_of_words(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert len(text.splitlines()) <= 260
     assert not re.search(
         r"innerHTML|insertAdjacentHTML|document\.write|\beval\(|https?://(?!www\.w3\.org/2000/svg)", text
     )
-
-
-def test_page_is_written_whole(make_campaign: CampaignMaker, tmp_path: Path) -> None:
-    write_page(payload(make_campaign(), [], 0.75, "road"), tmp_path / "sub" / "page.html")
-    assert [path.name for path in (tmp_path / "sub").iterdir()] == ["page.html"]
-    assert (tmp_path / "sub" / "page.html").read_text(encoding="utf-8").startswith("<!doctype html>")
 
 
 def test_same_campaign_gives_the_same_page(make_campaign: CampaignMaker) -> None:

@@ -89,8 +89,8 @@ def test_many_pictures_come_back_from_one_text(make_result: ResultMaker) -> None
     store = Store()
     about = [store.add(one) for one in made]
     values = unpacked(store.packed())
-    for one, told in zip(made, about, strict=True):
-        assert np.array_equal(values[told["begin"] : told["begin"] + one.values.size], one.values)
+    for one, one_about in zip(made, about, strict=True):
+        assert np.array_equal(values[one_about["begin"] : one_about["begin"] + one.values.size], one.values)
 
 
 def test_jumps_of_any_size_survive_packing(rng: np.random.Generator) -> None:

@@ -12,9 +12,10 @@ import pytest
 import xarray as xr
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy import calibration
-from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, climbed, verdict
+from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, coverage_table, preset_rows
 from rubfric.studies.accuracy.converged import Converged
 
 SceneMaker = Callable[..., Scene]
@@ -158,7 +159,7 @@ def judged(kind: str, covered: list[bool], ratios: list[float], refused: int = 0
 def test_verdict_asks_for_coverage_and_tightness(missed: int, ratio: float, holds: bool) -> None:
     assert (COVERAGE, EXCESS) == (0.95, 10.0)
     table = judged("inside", [False] * missed + [True] * (20 - missed), [ratio] * 20, refused=3)
-    for _, row in verdict(table).iterrows():
+    for _, row in coverage_table(table).iterrows():
         assert (row["scenes"], row["refused"]) == (20, 3)
         assert row["coverage"] == pytest.approx(1.0 - missed / 20.0)
         assert row["ratio"] == ratio
@@ -168,7 +169,7 @@ def test_verdict_asks_for_coverage_and_tightness(missed: int, ratio: float, hold
 def test_verdict_is_on_each_set_and_on_all_together() -> None:
     good = judged("ladder", [True] * 3, [1.0, 2.0, 90.0])
     bad = judged("outside", [True, False], [0.5, 4.0], refused=1)
-    found = verdict(pd.concat([good, bad], ignore_index=True)).set_index("set")
+    found = coverage_table(pd.concat([good, bad], ignore_index=True)).set_index("set")
     assert list(found.index) == ["ladder", "outside", "all"]
     assert list(found["scenes"]) == [3, 2, 5]
     assert list(found["refused"]) == [0, 1, 1]
@@ -178,7 +179,7 @@ def test_verdict_is_on_each_set_and_on_all_together() -> None:
 
 
 def test_verdict_on_refusals_alone_does_not_hold() -> None:
-    found = verdict(judged("inside", [], [], refused=2)).set_index("set")
+    found = coverage_table(judged("inside", [], [], refused=2)).set_index("set")
     assert list(found["scenes"]) == [0, 0]
     assert not found["holds"].any()
 
@@ -198,10 +199,10 @@ def test_presets_of_a_ladder_are_judged_alike() -> None:
             "note": ["", "", "", "refused"],
         }
     )
-    found = climbed(ladder).set_index("preset")
+    found = preset_rows(ladder).set_index("preset")
     assert list(found.index) == ["draft", "standard", "reference"]
     assert set(found["set"]) == {"ladder"}
     assert list(found["covered"])[:2] == [False, True]
     np.testing.assert_allclose(found["ratio"].astype(float)[:2], [0.8, 0.001 / 5e-8])
-    row = verdict(found.reset_index()).set_index("set").loc["ladder"]
+    row = coverage_table(found.reset_index()).set_index("set").loc["ladder"]
     assert (row["scenes"], row["refused"], row["coverage"]) == (2, 1, 0.5)

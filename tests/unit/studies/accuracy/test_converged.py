@@ -15,7 +15,8 @@ from rubfric.mechanics.steady.resolution import Resolution
 from rubfric.mechanics.steady.solution import Friction
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.layer import full_contact_friction
-from rubfric.scene.scene import Numerics, Scene
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy import converged
 from rubfric.studies.accuracy.converged import converge
 

@@ -81,16 +81,16 @@ def test_memory_is_what_the_computation_held_at_most() -> None:
     assert much - little > 100.0
 
 
-@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="only Linux forgets the most memory held")
+@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="only Linux resets the peak memory")
 def test_memory_held_before_is_forgotten() -> None:
     _, much, after = fresh_memories()
     assert much - after > 100.0
 
 
-def test_system_that_cannot_forget_tells_the_most_since_it_began(
+def test_system_that_cannot_reset_gives_the_peak_since_it_began(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(measured, "_FORGET", tmp_path / "missing" / "clear_refs")
+    monkeypatch.setattr(measured, "_RESET", tmp_path / "missing" / "clear_refs")
     monkeypatch.setattr(measured, "_STATUS", tmp_path / "missing" / "status")
     first = measure(lambda: None).memory
     assert 10.0 < first < 1e5  # MB: a Python with numpy

@@ -15,18 +15,18 @@ import pytest
 from synthetic_meshes import FRICTION, cell_size, synthetic
 
 import rubfric
-from rubfric.config.presets import fineness
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.resolution import Resolution
 from rubfric.mechanics.steady.solution import Friction, SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.scene.numerics import fineness
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy import ladder
 from rubfric.studies.accuracy.converged import Converged
 from rubfric.studies.accuracy.cost import Measured
-from rubfric.studies.accuracy.ladder import COLUMNS, STARTS, climb, rungs
+from rubfric.studies.accuracy.ladder import COLUMNS, STARTS, measure_ladder, rungs
 
 SceneMaker = Callable[..., Scene]
 PRESETS = rubfric.load(Path(rubfric.__file__).resolve().parent.parent / "config" / "config.yaml").presets
@@ -156,7 +156,7 @@ def test_starts_are_those_of_their_names(scene: Scene) -> None:
 
 
 def test_table_has_every_rung_and_each_scene_is_solved_once(scene: Scene, costs: Costs) -> None:
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     assert list(table.columns) == list(COLUMNS)
     wanted = list(rungs(scene))
     steady = table[~table["knob"].isin(["steps", "wavelengths"])]
@@ -169,7 +169,7 @@ def test_table_has_every_rung_and_each_scene_is_solved_once(scene: Scene, costs:
 
 
 def test_errors_are_relative(scene: Scene, costs: Costs) -> None:
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     assert set(table["scene"]) == {"some"}
     assert set(table["plane"]) == {"strain"}
     assert set(table["velocity"]) == {100.0}
@@ -190,7 +190,7 @@ def test_errors_are_relative(scene: Scene, costs: Costs) -> None:
 
 def test_small_strain_that_is_asked_for_has_no_estimate_of_the_error(scene: Scene, costs: Costs) -> None:
     # Its estimate is to small strain, but errors are to finite strain.
-    found = of(climb("some", scene), "kinematics")
+    found = of(measure_ladder("some", scene), "kinematics")
     assert np.isnan(found.loc["small", "estimate"])
     assert "to small strain" in found.loc["small", "note"]
     assert found.loc[["auto", "finite"], "estimate"].notna().all()
@@ -198,7 +198,7 @@ def test_small_strain_that_is_asked_for_has_no_estimate_of_the_error(scene: Scen
 
 def test_refused_rung_has_a_note_and_no_numbers(scene: Scene, costs: Costs) -> None:
     costs.refused = lambda given: given.numerics.accuracy == 0.002
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     refused = table["rung"].str.startswith("0.002 from")
     assert refused.sum() == len(STARTS[0.002])
     note = f"{scene.name}: not converged after 7 steps, something is 0.5"
@@ -211,7 +211,7 @@ def test_refused_rung_has_a_note_and_no_numbers(scene: Scene, costs: Costs) -> N
 
 def test_refusal_of_everything_is_a_table_too(scene: Scene, costs: Costs) -> None:
     costs.refused = lambda given: True
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     assert len(table) == len(list(rungs(scene)))
     assert (table["note"] != "").all()
     assert table[["friction_coefficient", "error", "seconds"]].isna().all(axis=None)
@@ -221,7 +221,7 @@ def test_refusal_of_everything_is_a_table_too(scene: Scene, costs: Costs) -> Non
 def test_marches_are_on_half_the_columns_and_only_where_few_suffice(
     scene: Scene, costs: Costs, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     steps, slid = of(table, "steps"), of(table, "wavelengths")
     assert list(steps.index) == ["8", "16", "32", "64"]
     assert list(slid.index) == ["1", "2", "4", "8"]
@@ -241,14 +241,14 @@ def test_marches_are_on_half_the_columns_and_only_where_few_suffice(
 
     costs.marched.clear()
     monkeypatch.setattr(ladder, "_MARCH_COLUMNS", 120)
-    assert not set(climb("some", scene)["knob"]) & {"steps", "wavelengths"}
+    assert not set(measure_ladder("some", scene)["knob"]) & {"steps", "wavelengths"}
     assert not costs.marched
 
 
 @pytest.mark.parametrize("refusal", [NotConverged("some", 3, 0.5, "something"), InvalidInput("too few columns")])
 def test_refused_march_has_a_note_for_each_of_its_rungs(scene: Scene, costs: Costs, refusal: Exception) -> None:
     costs.refusal = refusal
-    table = climb("some", scene)
+    table = measure_ladder("some", scene)
     marched = table[table["knob"].isin(["steps", "wavelengths"])]
     assert len(marched) == 8
     assert set(marched["note"]) == {str(refusal)}

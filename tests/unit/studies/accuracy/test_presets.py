@@ -11,10 +11,10 @@ import pandas as pd
 import pytest
 
 import rubfric
-from rubfric.config.presets import fineness
 from rubfric.errors import BrokenResult
+from rubfric.scene.numerics import fineness
 from rubfric.studies.accuracy.ladder import STARTS
-from rubfric.studies.accuracy.presets import knob_table, presets_that_differ, priced, start_table
+from rubfric.studies.accuracy.presets import knob_table, presets_that_differ, start_table, with_costs
 
 CONFIG = Path(rubfric.__file__).resolve().parent.parent / "config" / "config.yaml"
 SCENES = ("a", "b", "c")
@@ -105,7 +105,7 @@ def test_cheap_first_mesh_that_misses_the_accuracy_on_one_scene_is_not_chosen() 
 
 def test_presets_are_priced_out_of_the_ladder() -> None:
     ladder = starts().drop(columns="cost")
-    found = priced(ladder, PRESET_ACCURACIES)
+    found = with_costs(ladder, PRESET_ACCURACIES)
     presets = found[found["knob"] == "preset"]
     assert list(dict.fromkeys(presets["rung"])) == list(PRESET_ACCURACIES)
     best = {accuracy: values[0] for accuracy, values in STARTS.items()}
@@ -116,7 +116,7 @@ def test_presets_are_priced_out_of_the_ladder() -> None:
     assert (found[found["rung"] == "standard"]["cost"] == 1.0).all()
     assert len(found) == len(ladder) + len(presets)
     with pytest.raises(BrokenResult, match=r"^the ladder has no accuracy of 0\.3, that of the preset rough$"):
-        priced(ladder, {"rough": 0.3})
+        with_costs(ladder, {"rough": 0.3})
 
 
 def test_accuracy_that_is_just_kept_is_kept() -> None:

@@ -1,4 +1,4 @@
-"""Numbers that bear on the paper's claims, out of campaigns that are made up."""
+"""Evidence on the paper's claims from made-up campaigns."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from rubfric.studies.paper.evidence import Evidence, depth_evidence, gather, march_evidence, march_note
+from rubfric.studies.paper.claims import Evidence
+from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
 
 VELOCITIES, PRESSURES, ASPECTS = [1.0, 10.0, 100.0, 1000.0], [0.5, 5.0], [0.25, 0.75, 1.5]
 BELL = np.array([1.0, 2.0, 4.0, 2.0])
@@ -141,11 +142,11 @@ def test_depth_profiles() -> None:
 @pytest.mark.parametrize(
     ("slid", "variation", "outcome"), [(12, 0.004, "yes"), (12, 0.02, "no"), (5, 0.004, "open"), (5, 0.02, "open")]
 )
-def test_march_decides_once_it_slid_for_as_long_as_rubber_remembers(slid: int, variation: float, outcome: str) -> None:
+def test_march_decides_once_it_exceeds_the_memory_of_the_rubber(slid: int, variation: float, outcome: str) -> None:
     march = xr.Dataset(
         {"saturation_wavelengths": slid, "saturation_needed": 10, "saturation_variation": variation},
         attrs={"scale": 1, "pressure": 0.5, "velocity": 10.0},
     )
     found = march_evidence(march, 0.01)
     assert found.outcome == outcome
-    assert ("At 10 mm/s the march ended" in march_note([found])) == (outcome == "open")
+    assert ("At 10 mm/s the march was shorter" in march_note([found])) == (outcome == "open")

@@ -6,10 +6,9 @@ import math
 
 import pytest
 
-from rubfric.config.readings import AS_CONFIGURED
+from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.claims import claims_page, claims_text
-from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import Evidence
+from rubfric.studies.paper.claims import CLAIMS, Evidence
 from rubfric.studies.paper.verdicts import (
     EVERY,
     FAILS,

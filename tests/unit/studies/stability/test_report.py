@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from rubfric.studies.stability.cases import PANELS, Case
-from rubfric.studies.stability.report import counts, limits, markdown, page, row, summary
+from rubfric.studies.stability.report import counts, limits, page, row, summary
 from rubfric.studies.stability.trial import OUTCOMES, Trial
 
 GOOD = Trial("converged", "", (0.1, 0.1, 0.101), 0.01, 1e-11, 2.0, 200.0)
@@ -90,7 +90,3 @@ def test_page_names_failures_and_counts_refusals() -> None:
     assert "All are kept." in said
     assert "4 are not kept." in page(table(wrong=0.2))
     assert "None." in page(table().query("outcome != 'failed'"))
-
-
-def test_markdown_has_a_rule_under_its_headings() -> None:
-    assert markdown([("a", "b"), ("1", "2")]) == "| a | b |\n|---|---:|\n| 1 | 2 |"

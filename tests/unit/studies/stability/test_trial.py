@@ -63,11 +63,11 @@ def test_overflow_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_underflow_is_harmless(monkeypatch: pytest.MonkeyPatch) -> None:
-    def faint(case: Case) -> Verdict:
+    def underflowing(case: Case) -> Verdict:
         assert float(np.exp(np.array([-1e4]))[0]) == 0.0
         return Verdict((0.0, 0.0, 0.0), 0.0, 0.0, (), ("a remark",))
 
-    found = ending(monkeypatch, faint)
+    found = ending(monkeypatch, underflowing)
     assert (found.outcome, found.reason) == ("converged", "a remark")
 
 

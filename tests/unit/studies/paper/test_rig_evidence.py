@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
+from rubfric.studies.paper.evidence import rig_evidence, rig_note
 
 
 def points(friction: list[float], pressures: list[float], spread: float = 0.001, source: str = "data") -> pd.DataFrame:

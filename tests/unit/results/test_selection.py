@@ -1,16 +1,15 @@
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 import xarray as xr
+from synthetic_campaign import make_campaign
 
 from rubfric.errors import BrokenResult, InvalidInput
-from rubfric.figures.selection import described, friction, friction_error
+from rubfric.results.selection import described, friction, friction_error, position, written
 
 
-def test_line_is_picked_in_ascending_order(make_campaign: Callable[..., xr.Dataset]) -> None:
+def test_line_is_picked_in_ascending_order() -> None:
     campaign = make_campaign()
     line = friction(campaign.isel(velocity=slice(None, None, -1)), scale=2, pressure=5.0, aspect=0.75)
     expected = campaign["friction_coefficient"].sel(scale=2, pressure=5.0, aspect=0.75)
@@ -18,7 +17,7 @@ def test_line_is_picked_in_ascending_order(make_campaign: Callable[..., xr.Datas
     np.testing.assert_array_equal(line.values, expected.values)
 
 
-def test_rounding_of_coordinates_does_not_matter(make_campaign: Callable[..., xr.Dataset]) -> None:
+def test_rounding_of_coordinates_does_not_matter() -> None:
     campaign = make_campaign(pressures=(0.1 + 0.2, 1.0))
     assert friction(campaign, pressure=0.3).sizes["velocity"] == 6
 
@@ -32,28 +31,26 @@ def test_rounding_of_coordinates_does_not_matter(make_campaign: Callable[..., xr
         ({"aspect": 1.0}, r"^height-to-width ratio 1 is not in the campaign, which has 0\.25, 0\.75, 1\.5$"),
     ],
 )
-def test_missing_values_are_refused(
-    make_campaign: Callable[..., xr.Dataset], chosen: dict[str, float], complaint: str
-) -> None:
+def test_missing_values_are_refused(chosen: dict[str, float], complaint: str) -> None:
     with pytest.raises(InvalidInput, match=complaint):
         friction(make_campaign(), **chosen)
 
 
-def test_nothing_but_gaps_is_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
+def test_nothing_but_gaps_is_refused() -> None:
     campaign = make_campaign()
     campaign["friction_coefficient"].loc[{"scale": 1, "pressure": 5.0}] = np.nan
     with pytest.raises(InvalidInput, match=r"^the campaign holds no friction coefficient at scale 1, pressure 5 MPa$"):
         friction(campaign, scale=1, pressure=5.0)
 
 
-def test_other_datasets_are_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
-    with pytest.raises(InvalidInput, match=r"^the campaign lacks the variable friction_coefficient$"):
+def test_other_datasets_are_refused() -> None:
+    with pytest.raises(BrokenResult, match=r"^the campaign lacks friction_coefficient: gather the results"):
         friction(xr.Dataset())
-    with pytest.raises(InvalidInput, match=r"^the friction coefficients of the campaign lack the axis aspect$"):
+    with pytest.raises(InvalidInput, match=r"^the variable friction_coefficient of the campaign lacks the axis aspect"):
         friction(make_campaign().isel(aspect=0, drop=True))
 
 
-def test_errors_are_picked_like_friction(make_campaign: Callable[..., xr.Dataset]) -> None:
+def test_errors_are_picked_like_friction() -> None:
     campaign = make_campaign()
     place = {"scale": 2, "pressure": 5.0, "aspect": 0.75}
     error = friction_error(campaign.isel(velocity=slice(None, None, -1)), **place)
@@ -63,12 +60,9 @@ def test_errors_are_picked_like_friction(make_campaign: Callable[..., xr.Dataset
         friction_error(campaign, scale=5)
 
 
-def test_campaign_of_an_earlier_version_is_refused(make_campaign: Callable[..., xr.Dataset]) -> None:
+def test_campaign_of_an_earlier_version_is_refused() -> None:
     older = make_campaign().drop_vars("friction_coefficient_error")
-    complaint = (
-        r"^the campaign lacks the variable friction_coefficient_error, the estimated error: gather the results of its "
-        r"scenes again$"
-    )
+    complaint = r"^the campaign lacks friction_coefficient_error: gather the results of its scenes again$"
     with pytest.raises(BrokenResult, match=complaint):
         friction_error(older, scale=2)
 
@@ -76,3 +70,25 @@ def test_campaign_of_an_earlier_version_is_refused(make_campaign: Callable[..., 
 def test_places_are_described_with_their_units() -> None:
     text = described(scale=1, velocity=10.0, pressure=0.5, aspect=0.75)
     assert text == "scale 1, speed 10 mm/s, pressure 0.5 MPa, height-to-width ratio 0.75"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.1, "0.1"),
+        (0.30000000000000004, "0.3"),
+        (10.0, "10"),
+        (1000.0, "1000"),
+        (10000.0, "10\N{NO-BREAK SPACE}000"),
+        (1234567.5, "1\N{NO-BREAK SPACE}234\N{NO-BREAK SPACE}567.5"),
+        (0.0, "0"),
+        (-12000.0, "-12\N{NO-BREAK SPACE}000"),
+    ],
+)
+def test_numbers_are_written_plainly(value: float, text: str) -> None:
+    assert written(value) == text
+
+
+def test_axis_is_looked_up_by_value_whatever_its_order() -> None:
+    campaign = make_campaign(pressures=(5.0, 0.1 + 0.2))
+    assert [position(campaign, "pressure", value) for value in (5.0, 0.3)] == [0, 1]

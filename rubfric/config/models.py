@@ -1,0 +1,255 @@
+"""Every key of a config, defined once: its meaning, unit and bounds, and its default where it may be left out.
+
+The models say which keys there are; the rule at each key says what its value may be. What a scene consists of is
+defined by its own classes (``Numerics``, ``Procedure``, ``Material``, ``SineScale``), whose rules are taken from there.
+``rubfric.config.page`` exports the JSON schema and config/README.md; defaults are in config/config.yaml.
+"""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, fields, replace
+from typing import TYPE_CHECKING, Annotated, Any, Self
+
+from pydantic import create_model, model_validator
+
+from rubfric.config.entries import Catalogue, Entry, Named, Scales, keys
+from rubfric.road.sine import SineScale
+from rubfric.rubber.material import BULK, MODULI, PLANES, Material
+from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Word, rules
+from rubfric.scene.numerics import PRESET_KEYS, Numerics
+from rubfric.scene.procedure import Procedure, check_wavelengths
+from rubfric.scene.scene import KINEMATICS
+
+# Where the sensor of traction sits.
+TRACTIONS = ("rubber", "rope")
+# The name under which the campaign itself is judged, beside its readings.
+AS_CONFIGURED = "campaign"
+
+
+def _grid(about: str, unit: str = "") -> Items:
+    return Items(about, Number(unit=unit))
+
+
+class Grid(Entry):
+    """Every scale of the road is run at every one of these velocities and pressures."""
+
+    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
+    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures on the top of the block.", "MPa")]
+    aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
+
+
+class AspectStudy(Entry):
+    """Height-to-width ratios to compare, at the velocities of the grid."""
+
+    aspects: Annotated[tuple[float, ...], _grid("Height-to-width ratios.")]
+    scales: Annotated[
+        tuple[int, ...], Items("Numbers of the scales of the road to study, 1 being the first under roads.", Integer())
+    ]
+    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures of the study.", "MPa")]
+
+
+class TransientChoice(Entry):
+    """Press and slide in time, for Fig. 5, at the aspect of the grid."""
+
+    scale: Annotated[int, Integer("Number of the scale.")]
+    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
+    pressure: Annotated[float, Number("Nominal pressure.", "MPa")]
+    start: Annotated[str, rules(Procedure)["start"]]
+    columns: Annotated[int, rules(Procedure)["columns"]]
+    steps_per_wavelength: Annotated[int, rules(Procedure)["steps_per_wavelength"]]
+    wavelengths: Annotated[int, rules(Procedure)["wavelengths"]]
+    saturation: Annotated[float, replace(rules(Procedure)["saturation"], low=1e-6, high=0.5)]
+
+    @model_validator(mode="after")
+    def _steps(self) -> Self:
+        check_wavelengths(f"{HERE}.wavelengths", self.wavelengths, self.steps_per_wavelength)
+        return self
+
+    def procedure(self) -> dict[str, Any]:
+        """Return the arguments of a ``rubfric.scene.procedure.Procedure``."""
+        return self.model_dump(exclude={"scale", "velocities", "pressure"})
+
+
+class Fields(Entry):
+    """Scenes whose fields are drawn, Figs 2 and 4."""
+
+    scale: Annotated[int, Integer("Number of the scale.")]
+    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds, out of the grid's.", "mm/s")]
+    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures, out of the grid's.", "MPa")]
+
+
+class FigureChoice(Entry):
+    """What the figures show, out of the grid."""
+
+    total_pressure: Annotated[
+        float, Number("Nominal pressure of Fig. 7, the total over the scales; one of the grid's.", "MPa")
+    ]
+    fields: Fields
+
+
+class VirtualRig(Entry):
+    """Virtual rig, whose weights the program chooses so that speeds span what was simulated."""
+
+    area: Annotated[float, Number("Nominal area of the rubber.", "mm²")]
+    traction: Annotated[
+        str,
+        Choice(
+            "Where the sensor of traction sits, at the rubber or in the rope, where it also reads the drag of the "
+            "bearings and what accelerates the sled.",
+            TRACTIONS,
+        ),
+    ]
+    sled_mass: Annotated[float, Number("Mass of the sled with the road.", "kg")]
+    heaviest_weight: Annotated[float, Number("Heaviest weight that may hang from the rope.", "kg")]
+    travel: Annotated[float, Number("Travel of the sled.", "mm")]
+    bearing_force: Annotated[float, Number("Drag of the bearings without a load.", "N", low=0.0)]
+    bearing_coefficient: Annotated[float, Number("Drag of the bearings per normal force.", low=0.0)]
+    force_noise: Annotated[float, Number("Standard deviation of the noise of both forces.", "N", low=0.0)]
+    displacement_noise: Annotated[float, Number("Standard deviation of the noise of the displacement.", "mm", low=0.0)]
+    displacement_step: Annotated[float, Number("Step of the readings of the displacement; 0 for none.", "mm", low=0.0)]
+    sampling: Annotated[
+        float, Number("Samples per second; slow runs are sampled more slowly.", "Hz", low=100.0, high=1e6)
+    ]
+    seed: Annotated[int, Integer("Seed of the noise.", 0, 2**31)]
+
+
+class RigChoice(Entry):
+    """Test rig of Figs 8 and 9, measured or virtual."""
+
+    data: Annotated[
+        tuple[str, ...],
+        Items(
+            "Files of measured runs, CSV tables of time, normal force, traction and displacement; while there are "
+            "none, a virtual rig measures what was simulated.",
+            Place(),
+            least=0,
+            ascending=False,
+        ),
+    ]
+    columns: Annotated[
+        str | None,
+        Place(
+            "YAML file that names their columns and the area of the rubber, see docs/rig.md; null where there is none.",
+            optional=True,
+        ),
+    ]
+    pressures: Annotated[
+        tuple[float, ...], _grid("Nominal pressures at which Fig. 9 shows friction over speed.", "MPa")
+    ]
+    speeds: Annotated[tuple[float, ...], _grid("Speeds at which Fig. 9 shows friction over pressure.", "mm/s")]
+    virtual: VirtualRig
+
+
+class Reading(Entry):
+    """What a reading changes of the campaign; what is left out is not changed."""
+
+    plane: Annotated[str | None, Choice("Plane stress or plane strain.", PLANES)] = None
+    kinematics: Annotated[str | None, Choice("Small strain, finite strain, or auto.", KINEMATICS)] = None
+    moduli: Annotated[
+        str | None,
+        Choice("Whether the rubber's Young's modulus is of the relaxed or of the instantaneous rubber.", MODULI),
+    ] = None
+    bulk: Annotated[
+        str | None, Choice("Whether its bulk modulus is constant or relaxes as the shear modulus does.", BULK)
+    ] = None
+
+    def rubber(self, material: Material) -> Material:
+        """Return a rubber as this reading has it."""
+        return replace(material, **self.model_dump(include={"moduli", "bulk"}, exclude_none=True))
+
+
+class ClaimsChoice(Entry):
+    """How the paper's claims are judged, and other readings of what the paper leaves open."""
+
+    difference: Annotated[
+        float,
+        Number(
+            "Relative difference up to which two values are called equal, and beyond which they are called different.",
+            low=0.001,
+            high=0.5,
+        ),
+    ]
+    preset: Annotated[str, Named("Name of the entry under presets with which other readings are simulated.")]
+    compare: Annotated[
+        tuple[str, ...],
+        Items(
+            "Names of the readings that are simulated and judged beside the campaign.",
+            Word(),
+            least=0,
+            ascending=False,
+        ),
+    ]
+    readings: Annotated[
+        dict[str, Reading],
+        Catalogue(
+            "Other readings of the paper, by name; each is judged by the whole grid and aspect study.",
+            0,
+            AS_CONFIGURED,
+        ),
+    ]
+
+
+if TYPE_CHECKING:  # made of the dataclasses below
+    NumericsChoice = Entry
+    Preset = Entry
+    Rubber = Entry
+    Scale = Entry
+else:
+    NumericsChoice = create_model(
+        "NumericsChoice",
+        __base__=Entry,
+        __doc__="Accuracy and resolution: a preset, and whatever of a preset's keys shall differ from it. The program "
+        "chooses each scene's kinematics and mesh by these rules.",
+        preset=(Annotated[str, Named("Name of an entry under presets.")], ...),
+        **keys(Numerics, [name for name in rules(Numerics) if name not in PRESET_KEYS]),
+        **keys(Numerics, PRESET_KEYS, dict.fromkeys(PRESET_KEYS)),
+    )
+    Preset = create_model(
+        "Preset",
+        __base__=Entry,
+        __doc__="An accuracy, with the first mesh on which to look for it.",
+        **keys(Numerics, PRESET_KEYS),
+    )
+    Rubber = create_model(
+        "Rubber",
+        __base__=Entry,
+        __doc__="A linear viscoelastic rubber, a spring and any number of Maxwell elements.",
+        **keys(
+            Material,
+            [name for name in rules(Material) if name != "name"],
+            {one.name: one.default for one in fields(Material) if one.default is not MISSING},
+        ),
+    )
+    Scale = create_model("Scale", __base__=Entry, __doc__="A scale of a road.", **keys(SineScale, rules(SineScale)))
+
+
+class Config(Entry):
+    """A campaign of sliding simulations. Numbers are canonical to twelve digits; lists may come in any order."""
+
+    results: Annotated[str, Place("Folder of all outputs, created where it is missing.", "folder")]
+    rubber: Annotated[str, Named("Name of the rubber in use, one of those under rubbers.")]
+    road: Annotated[str, Named("Name of the road in use, one of those under roads.")]
+    plane: Annotated[str, Choice("Plane stress (the paper's CPS4R) or plane strain.", PLANES)]
+    kinematics: Annotated[
+        str,
+        Choice(
+            "Small strain, finite strain, or auto, which takes small strain for scenes where it is accurate enough.",
+            KINEMATICS,
+        ),
+    ]
+    grid: Grid
+    aspect_study: AspectStudy
+    transient: TransientChoice
+    figures: FigureChoice
+    rig: RigChoice
+    claims: ClaimsChoice
+    numerics: NumericsChoice
+    presets: Annotated[
+        dict[str, Preset],
+        Catalogue("Accuracies with the first mesh on which to look for them, by name."),
+    ]
+    rubbers: Annotated[dict[str, Rubber], Catalogue("Rubbers by name.")]
+    roads: Annotated[
+        dict[str, Annotated[list[Scale], Scales("Scales of a road, from coarse to fine; scale 1 is the first.")]],
+        Catalogue("Roads by name."),
+    ]

@@ -1,0 +1,87 @@
+"""The paper's claims judged by a campaign, its marches, other readings of the paper and the points of a test rig."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import pandas as pd
+import xarray as xr
+
+from rubfric.config.models import AS_CONFIGURED
+from rubfric.studies.paper.claims import CLAIMS
+from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
+from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
+from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
+from rubfric.studies.paper.verdicts import claims_table, evidence_table
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """What the verdicts depend on besides results.
+
+    Parameters
+    ----------
+    aspect : float
+        Height over width of the blocks on the campaign's grid.
+    studied : sequence of float
+        Pressures of the study of the height-to-width ratio, MPa.
+    profiled : mapping of str to sequence of float
+        ``scale``, ``velocity`` (mm/s), ``pressure`` (MPa) and ``aspect`` of the scenes whose depth is looked at.
+    difference : float
+        Relative difference below which two frictions count as equal.
+    saturation : float
+        Relative tolerance of a march that counts as saturated.
+    total_pressure : float
+        Pressure at which the total over the scales is judged, MPa.
+    """
+
+    aspect: float
+    studied: Iterable[float]
+    profiled: Mapping[str, Iterable[float]]
+    difference: float
+    saturation: float
+    total_pressure: float
+
+
+def judge(
+    campaign: xr.Dataset,
+    profiles: Iterable[xr.Dataset],
+    marches: Iterable[xr.Dataset],
+    points: pd.DataFrame,
+    readings: Mapping[str, pd.DataFrame],
+    criteria: Criteria,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Return the verdicts and the numbers that they rest on.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As from ``rubfric.results.campaign.collect``.
+    profiles, marches : iterables of xarray.Dataset
+        Results of the scenes whose depth is looked at, and of marches.
+    points : pandas.DataFrame
+        Points of the test rig.
+    readings : mapping of str to pandas.DataFrame
+        Observations in each other reading of the paper, a row per scene.
+    criteria : Criteria
+
+    Returns
+    -------
+    claims, evidence : pandas.DataFrame
+        As from ``claims_table`` and ``evidence_table`` of ``rubfric.studies.paper.verdicts``.
+    """
+    own = [
+        *gather(campaign, criteria.aspect, criteria.studied, criteria.difference),
+        *depth_evidence(table(map(profile_row, profiles)), criteria.difference),
+        *(march_evidence(march, criteria.saturation) for march in marches),
+        *rig_evidence(points),
+    ]
+    evidence, notes = {AS_CONFIGURED: own}, {AS_CONFIGURED: {"C5": march_note(own), "C8": rig_note(points)}}
+    for reading, rows in readings.items():
+        evidence[reading] = [
+            *gather(over_axes(rows), criteria.aspect, criteria.studied, criteria.difference),
+            *depth_evidence(rows[among(rows, criteria.profiled)], criteria.difference),
+        ]
+        notes[reading] = dict.fromkeys(CLAIMS, refusals(rows))
+    return claims_table(evidence, criteria.total_pressure, notes), evidence_table(evidence)
