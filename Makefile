@@ -1,7 +1,7 @@
 # make figures   set up a local environment and run the campaign: every table and figure, in results/
-# make test      set up and pass the tests
-# make test-browser  pass the tests of the page to explore, in Chromium
-# make test-cluster  pass the tests on a SLURM cluster of one node, which Debian's slurm-wlm and munge make here
+# make test      set up and pass the tests that say in minutes whether everything works
+# make test-all  pass all others: the paper's campaign, every scene and fault, and what needs Debian's chromium,
+#                chromium-driver (the pages in a browser), slurm-wlm and munge (the campaign on a cluster of one node)
 # make check     formatting, lint, types, workflow lint
 # make bench     time scenes in-process, the campaign against its floor, and planning; writes the tables of the pages
 # make accuracy  measure accuracy against cost, in about an hour; writes the pages on it
@@ -18,7 +18,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures report test test-browser test-cluster check docs bench accuracy stability format clean distclean
+.PHONY: figures report test test-all check docs bench accuracy stability format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -36,17 +36,14 @@ docs: $(VENV)/.ready
 test: $(VENV)/.ready
 	python -m pytest -n $(JOBS)
 
-test-browser: $(VENV)/.ready
-	python -m pytest tests/browser
-
-test-cluster: $(VENV)/.ready
-	python -m pytest tests/cluster
+test-all: $(VENV)/.ready
+	python -m pytest -n $(JOBS) -m thorough
 
 check: $(VENV)/.ready
 	ruff check .
 	ruff format --check .
 	mypy
-	MYPYPATH=tests/support mypy tests/cluster
+	MYPYPATH=tests/support mypy tests/cluster tests/support/on_cluster.py
 	snakefmt --check Snakefile workflow
 	snakemake --lint
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +25,49 @@ SCALES = ((0.015, 35.0), (0.006, 80.0), (0.003, 200.0), (0.002, 300.0))
 SceneMaker = Callable[..., Scene]
 
 # Folders whose tests share a campaign that takes long to run: one worker does all of a folder, and begins with it.
-TOGETHER = ("workflow", "results")
+TOGETHER = ("results", "workflow", "browser", "cluster")
+# Folders of which every test takes long, or needs what a plain machine has not.
+THOROUGH = ("results", "browser", "cluster")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--perturb", type=int, metavar="SEED", help="perturb what every contact solve is given by 1e-13")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    seed = config.getoption("--perturb")
+    if seed is not None:
+        perturb_contact_solves(seed)
+
+
+def perturb_contact_solves(seed: int) -> None:
+    """Multiply road and load of every contact solve by 1 + 1e-13 r, as if by another machine's round-off.
+
+    In partial contact each node of the road has an r of its own; in full contact, where harmonics that the road
+    lacks must stay absent, all have the same. The solvers import these functions by name: this has to come before.
+    """
+
+    def perturbed(function: Callable[..., Any], by_node: bool) -> Callable[..., Any]:
+        def solve(compliance: Any, profile: np.ndarray, nominal: float, *others: Any, **named: Any) -> Any:
+            noise = 1.0 + 1e-13 * np.random.default_rng([seed, len(profile)]).uniform(-1.0, 1.0, len(profile) + 1)
+            return function(
+                compliance, profile * (noise[1:] if by_node else noise[1]), nominal * noise[0], *others, **named
+            )
+
+        return solve
+
+    contact = import_module("rubfric.mechanics.block.contact")
+    contact.pivot = perturbed(contact.pivot, by_node=True)
+    contact.full_contact = perturbed(contact.full_contact, by_node=False)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with what takes longest: the folders of ``TOGETHER``, then verification."""
-    items.sort(key=lambda item: (item.path.parent.name not in TOGETHER, item.path.parent.name != "verification"))
+    """Mark the folders of ``THOROUGH``; begin with what takes longest: those of ``TOGETHER``, then verification."""
+    for item in items:
+        if item.path.parent.name in THOROUGH:
+            item.add_marker("thorough")
+    order = {name: place for place, name in enumerate((*TOGETHER, "verification"))}
+    items.sort(key=lambda item: order.get(item.path.parent.name, len(order)))
 
 
 class _ByFolder(LoadScopeScheduling):  # type: ignore[misc]

@@ -13,7 +13,7 @@ import pandas as pd
 import psutil
 import pytest
 import xarray as xr
-from conftest import OnCluster
+from on_cluster import OnCluster
 from project_copy import Project
 
 from rubfric.results.dataset import load

@@ -74,6 +74,7 @@ def test_contact_presses_never_pulls_and_carries_the_load(scene: Scene) -> None:
     assert contact.pressure.mean() == pytest.approx(scene.pressure, rel=1e-9)
 
 
+@pytest.mark.thorough
 @given(slidings())
 @settings(max_examples=60)
 def test_friction_is_never_negative_and_the_same_by_three_routes(scene: Scene) -> None:
@@ -107,6 +108,7 @@ def frictions(scene: Scene) -> tuple[int, float]:
 powers_of_ten = st.integers(-6, 6).map(lambda power: 10.0**power)
 
 
+@pytest.mark.thorough
 @given(slidings(least_branches=1), powers_of_ten, powers_of_ten, powers_of_ten)
 @settings(max_examples=30)
 def test_friction_depends_on_ratios_only(scene: Scene, length: float, time: float, stress: float) -> None:

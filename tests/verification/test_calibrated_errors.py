@@ -7,11 +7,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pandas as pd
+import pytest
 
 from rubfric.config.campaign import load
 from rubfric.scene.scene import Scene
 from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, coverage_table
 from rubfric.studies.accuracy.scenes import SETS, drawn_scenes
+
+pytestmark = pytest.mark.thorough
 
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config/config.yaml")
 SEED = 20251

@@ -23,7 +23,11 @@ DEFAULT, FINE = Numerics(), Numerics(**fineness(1.0), refinements=0)
 @PLANES
 @SCALES
 @pytest.mark.parametrize("velocity", [0.1, 10.0, 1000.0, 1e4])
-@pytest.mark.parametrize(("numerics", "most"), [(DEFAULT, DEFAULT.accuracy), (FINE, WORST)], ids=["default", "fine"])
+@pytest.mark.parametrize(
+    ("numerics", "most"),
+    [(DEFAULT, DEFAULT.accuracy), pytest.param(FINE, WORST, marks=pytest.mark.thorough)],
+    ids=["default", "fine"],
+)
 def test_routes_agree_whatever_the_load(
     paper_scene: SceneMaker, plane: str, scale: int, velocity: float, numerics: Numerics, most: float
 ) -> None:

@@ -16,6 +16,8 @@ from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
+pytestmark = pytest.mark.thorough
+
 SceneMaker = Callable[..., Scene]
 CAMPAIGN = load(Path(__file__).resolve().parents[2] / "config" / "config.yaml")
 HEAVY = 10.0

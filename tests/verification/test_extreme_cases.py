@@ -10,6 +10,8 @@ import pytest
 from rubfric.studies.stability.cases import PANELS, cases
 from rubfric.studies.stability.trial import Trial, confined
 
+pytestmark = pytest.mark.thorough
+
 # Every so-manieth case of each panel, and of marches, which take longer.
 _EVERY = 23
 # Cases with a history: each of them once failed, hung, or gave a number that it should not.

@@ -80,6 +80,7 @@ def test_routes_of_a_filled_road_agree_on_any_mesh(
     assert slide(velocity, pressure, plane, columns, 1.2).closure < 1e-5
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), PART)
 def test_friction_of_partial_contact_settles(slide, velocity: float, pressure: float, plane: str) -> None:
@@ -105,6 +106,7 @@ def _on_all_meshes(slide, velocity: float, pressures: Sequence[float], plane: st
     )
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), [*FILLED, *PART])
 def test_growth_of_the_rows_hardly_matters(slide, velocity: float, pressure: float, plane: str) -> None:
@@ -113,6 +115,7 @@ def test_growth_of_the_rows_hardly_matters(slide, velocity: float, pressure: flo
     assert coarse.stress_power == pytest.approx(fine.stress_power, rel=1.5e-3)
 
 
+@pytest.mark.thorough
 @PLANES
 @pytest.mark.parametrize(("velocity", "pressure"), [*FILLED, *PART])
 def test_height_of_the_first_row_hardly_matters(slide, velocity: float, pressure: float, plane: str) -> None:

@@ -56,6 +56,7 @@ def assert_chosen_well(scene: Scene, share: float) -> None:
     assert decide(auto).kinematics == "finite" or abs(correction(scene)) <= share
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("scale", "velocity", "pressure"), NEAR)
 def test_plane_strain_to_a_hundredth(paper_scene: SceneMaker, scale: int, velocity: float, pressure: float) -> None:
     assert_chosen_well(paper_scene(velocity, pressure, scale), 0.01)
@@ -66,6 +67,7 @@ def test_plane_strain_to_a_twentieth(paper_scene: SceneMaker, scale: int, veloci
     assert_chosen_well(paper_scene(velocity, pressure, scale), 0.05)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("scale", "velocity", "pressure"), NEAR_IN_STRESS)
 def test_plane_stress_to_a_twentieth(paper_scene: SceneMaker, scale: int, velocity: float, pressure: float) -> None:
     assert_chosen_well(paper_scene(velocity, pressure, scale, plane="stress"), 0.05)
@@ -87,6 +89,7 @@ def test_scenes_lie_on_both_sides(paper_scene: SceneMaker) -> None:
         assert min(chosen.count("small"), chosen.count("finite")) >= 3
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("plane", ["strain", "stress"])
 @pytest.mark.parametrize(("scale", "velocity", "pressure"), PAPER)
 def test_estimate_bounds_the_correction(
@@ -96,6 +99,7 @@ def test_estimate_bounds_the_correction(
     assert estimated_correction(scene) >= abs(correction(scene))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("velocity", "pressure"), [(0.1, 0.005), (0.1, 0.1), (10.0, 0.02)])
 @pytest.mark.parametrize("plane", ["strain", "stress"])
 def test_estimate_bounds_the_correction_under_light_loads(

@@ -81,6 +81,7 @@ CASES = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("case", CASES)
 def test_intervals_hold_the_truth_as_often_as_they_say(case: str, friction: FrictionMap) -> None:
     speed, traction, kind = CASES[case]

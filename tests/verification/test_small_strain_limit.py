@@ -50,6 +50,7 @@ def test_difference_falls_with_the_square_of_the_slope(difference) -> None:
     assert (coarse - flat) / (fine - flat) == pytest.approx(4.0, rel=0.1)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("plane", ["stress", "strain"])
 def test_difference_falls_with_the_compression_under_the_load(difference, plane: str) -> None:
     fine, coarse = difference(0.02, 1.3, plane, 0.49), difference(0.04, 1.3, plane, 0.49)

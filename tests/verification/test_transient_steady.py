@@ -81,7 +81,9 @@ def test_steady_sliding_in_small_strain_goes_on_so_at_high_speed(
 
 
 @PLANES
-@pytest.mark.parametrize(("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), (10.0, 0.5, 3)])
+@pytest.mark.parametrize(
+    ("velocity", "pressure", "wavelengths"), [(1.0, 1.0, 1), pytest.param(10.0, 0.5, 3, marks=pytest.mark.thorough)]
+)
 def test_pressed_and_slid_in_finite_strain(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float, wavelengths: int
 ) -> None:
@@ -91,7 +93,9 @@ def test_pressed_and_slid_in_finite_strain(
 
 
 @PLANES
-@pytest.mark.parametrize(("velocity", "pressure"), [(100.0, 0.5), (1000.0, 5.0)])
+@pytest.mark.parametrize(
+    ("velocity", "pressure"), [(100.0, 0.5), pytest.param(1000.0, 5.0, marks=pytest.mark.thorough)]
+)
 def test_steady_sliding_in_finite_strain_goes_on_so(
     paper_scene: SceneMaker, plane: str, velocity: float, pressure: float
 ) -> None:

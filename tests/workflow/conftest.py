@@ -11,7 +11,7 @@ from project_copy import Project
 @pytest.fixture(scope="session")
 def template(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The minimal campaign, complete. Not to be changed."""
-    project = Project.from_source(tmp_path_factory.mktemp("template"))
+    project = Project.from_source(tmp_path_factory.mktemp("a path with spaces"))
     project.run()
     return project
 

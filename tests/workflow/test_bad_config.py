@@ -60,6 +60,7 @@ def test_bad_value_on_the_command_line_is_refused_in_one_sentence(fresh: Project
     assert_refused(fresh, done, "plane is 'flat', but must be one of stress, strain")
 
 
+@pytest.mark.thorough
 def test_dry_run_refuses_it_too(fresh: Project) -> None:
     done = fresh.snakemake("-n", "--config", "rubber=zhou")
     assert_refused(fresh, done, "rubber is 'zhou', but must be one of zhou2019 (did you mean zhou2019?)")

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pandas as pd
+import pytest
 from project_copy import Plan, Project
 
 FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7", "fig8", "fig9"}
@@ -125,6 +126,7 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     assert not empty_project.results.exists()
 
 
+@pytest.mark.thorough
 def test_workflow_is_found_where_tools_look_for_it(template: Project) -> None:
     assert template.plan("-s", "workflow/Snakefile").jobs == {}
 

@@ -20,6 +20,8 @@ from project_copy import MINIMAL, Project
 
 from rubfric.results.dataset import load
 
+pytestmark = pytest.mark.thorough
+
 PATIENCE = 300.0  # s
 TARGETS = ("tables", "marches")
 # Five scenes and a march of 48 steps.

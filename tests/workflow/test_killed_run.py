@@ -14,6 +14,8 @@ from project_copy import Project
 from rubfric.results.dataset import read
 from rubfric.results.scalars import SCALARS
 
+pytestmark = pytest.mark.thorough
+
 PATIENCE = 120.0  # s
 
 

@@ -27,8 +27,8 @@ DEFAULT = "config/config.yaml"
     ("at", "values", "count", "readings"),
     [
         ("grid.velocities", [1, 10, 100], 9, 4),
-        ("grid.pressures", [0.5, 2, 5], 8, 8),
-        ("aspect_study.aspects", [0.5, 0.75, 1.5], 2, 2),
+        pytest.param("grid.pressures", [0.5, 2, 5], 8, 8, marks=pytest.mark.thorough),
+        pytest.param("aspect_study.aspects", [0.5, 0.75, 1.5], 2, 2, marks=pytest.mark.thorough),
     ],
 )
 def test_another_value_runs_its_own_scenes_only(
@@ -44,6 +44,7 @@ def test_another_value_runs_its_own_scenes_only(
     assert plan.figures == CAMPAIGN_FIGURES | {"fig9"}
 
 
+@pytest.mark.thorough
 def test_value_taken_away_runs_no_scene(project: Project) -> None:
     project.configure("aspect_study.aspects", [0.75])
     project.configure("grid.velocities", [100])
@@ -52,6 +53,7 @@ def test_value_taken_away_runs_no_scene(project: Project) -> None:
     assert plan.jobs == {**CAMPAIGN, **FIELDS, "reading": 1}  # a batch of the other reading is of fewer scenes
 
 
+@pytest.mark.thorough
 def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
     project.configure("figures.fields.pressures", [5])
     plan = project.plan()
@@ -59,6 +61,7 @@ def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
     assert plan.figures == FIELD_FIGURES
 
 
+@pytest.mark.thorough
 def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> None:
     project.configure("figures.total_pressure", 0.5)
     plan = project.plan()
@@ -66,6 +69,7 @@ def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> 
     assert plan.figures == {"fig7"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("at", "value"), [("rig.pressures", [1]), ("rig.virtual", {"seed": 1}), ("rig.virtual", {"sled_mass": 6})]
 )
@@ -74,6 +78,7 @@ def test_other_rig_is_measured_and_drawn_alone(project: Project, at: str, value:
     assert project.plan().jobs == RIG
 
 
+@pytest.mark.thorough
 def test_measured_runs_take_the_place_of_the_virtual_rig_or_are_named_as_missing(project: Project) -> None:
     data = [f"data/run{number}.csv" for number in (1, 2)]
     for name in (*data, "data/rig.yaml", "data/pull.csv"):
@@ -103,7 +108,9 @@ def test_order_and_spelling_of_numbers_run_nothing(project: Project) -> None:
     assert project.plan().jobs == {}
 
 
-@pytest.mark.parametrize(("figure", "rule"), [("fig1", "campaign_figure"), ("fig4", "field_figure")])
+@pytest.mark.parametrize(
+    ("figure", "rule"), [("fig1", "campaign_figure"), pytest.param("fig4", "field_figure", marks=pytest.mark.thorough)]
+)
 def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule: str) -> None:
     project.comment(f"rubfric/figures/{figure}.py")
     plan = project.plan()
@@ -111,6 +118,7 @@ def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule:
     assert plan.jobs == {rule: 1}
 
 
+@pytest.mark.thorough
 def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> None:
     project.comment("rubfric/figures/style.py")
     plan = project.plan()
@@ -124,32 +132,38 @@ def test_edited_mechanics_run_everything(project: Project) -> None:
     assert project.plan().jobs == EVERYTHING
 
 
+@pytest.mark.thorough
 def test_edited_script_of_scenes_runs_all_but_the_marches(project: Project) -> None:
     project.comment("workflow/scripts/simulate_scene.py")
     assert project.plan().jobs == {"scene": 18, **CAMPAIGN, "field_figure": 2}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["rubfric/mechanics/finite/march.py", "workflow/scripts/march_scene.py"])
 def test_edited_marches_run_alone(project: Project, name: str) -> None:
     project.comment(name)
     assert project.plan().jobs == MARCHES
 
 
+@pytest.mark.thorough
 def test_added_speed_of_the_marches_runs_its_march_alone(project: Project) -> None:
     project.configure("transient.velocities", [10, 100])
     assert project.plan().jobs == MARCHES
 
 
+@pytest.mark.thorough
 def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -> None:
     project.comment("rubfric/results/campaign.py", "workflow/scripts/collect_campaign.py")
     assert project.plan().jobs == CAMPAIGN
 
 
+@pytest.mark.thorough
 def test_edited_tables_are_written_again_alone(project: Project) -> None:
     project.comment("rubfric/results/tables.py")
     assert project.plan().jobs == {**TABLES, **RIG}
 
 
+@pytest.mark.thorough
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/results/scales.py")
     plan = project.plan()
@@ -157,6 +171,7 @@ def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     assert plan.figures == {"fig7", "fig9"}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("name", ["page.py", "explorer.js"])
 def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
     project.comment(f"rubfric/pages/explorer/{name}")
@@ -188,6 +203,7 @@ def test_touch_alone_reruns_nothing(project: Project) -> None:
     assert project.plan().jobs == {}
 
 
+@pytest.mark.thorough
 def test_lost_stamps_of_the_sources_rerun_nothing(project: Project) -> None:
     shutil.rmtree(project.root / ".snakemake" / "sources")
     assert project.plan().jobs == {}
@@ -195,28 +211,35 @@ def test_lost_stamps_of_the_sources_rerun_nothing(project: Project) -> None:
 
 @pytest.mark.parametrize(
     ("at", "value"),
-    [("rubbers.zhou2019.youngs_modulus", 4.2), ("rubbers.zhou2019.bulk", "proportional")],
+    [
+        ("rubbers.zhou2019.youngs_modulus", 4.2),
+        pytest.param("rubbers.zhou2019.bulk", "proportional", marks=pytest.mark.thorough),
+    ],
 )
 def test_other_rubber_runs_everything(project: Project, at: str, value: Any) -> None:
     project.configure(at, value, DEFAULT)
     assert project.plan().jobs == EVERYTHING
 
 
+@pytest.mark.thorough
 def test_other_numerics_run_all_but_the_other_reading_which_has_a_preset(project: Project) -> None:
     project.configure("numerics.contact_nodes", 40, DEFAULT)
     assert project.plan().jobs == {rule: count for rule, count in EVERYTHING.items() if rule != "reading"}
 
 
+@pytest.mark.thorough
 def test_other_preset_of_the_readings_runs_them_alone(project: Project) -> None:
     project.configure("claims.preset", "standard", DEFAULT)
     assert project.plan().jobs == {"reading": 8, **CLAIMS}
 
 
+@pytest.mark.thorough
 def test_other_difference_judges_again_alone(project: Project) -> None:
     project.configure("claims.difference", 0.1, DEFAULT)
     assert project.plan().jobs == CLAIMS
 
 
+@pytest.mark.thorough
 def test_other_height_of_one_scale_runs_that_scale_only(project: Project) -> None:
     project.configure("roads.zhou2019.2.amplitude", 0.004, DEFAULT)
     plan = project.plan()
@@ -224,6 +247,7 @@ def test_other_height_of_one_scale_runs_that_scale_only(project: Project) -> Non
     assert plan.jobs == {"scene": 4, **CAMPAIGN, "reading": 2}
 
 
+@pytest.mark.thorough
 def test_spare_rubber_and_road_run_nothing(project: Project) -> None:
     spare = {"youngs_modulus": 1, "poissons_ratio": 0.3, "shear_fractions": [], "relaxation_times": []}
     project.configure("rubbers.spare", spare, DEFAULT)
@@ -231,11 +255,13 @@ def test_spare_rubber_and_road_run_nothing(project: Project) -> None:
     assert project.plan().jobs == {}
 
 
+@pytest.mark.thorough
 def test_optional_keys_of_the_rubber_left_out_run_nothing(project: Project) -> None:
     project.edit(DEFAULT, lambda text: re.sub(r"    (moduli|bulk|density): .*\n", "", text))
     assert project.plan().jobs == {}
 
 
+@pytest.mark.thorough
 def test_other_plane_runs_scenes_of_other_names(project: Project) -> None:
     project.configure("plane", "strain", DEFAULT)
     plan = project.plan()
@@ -243,6 +269,7 @@ def test_other_plane_runs_scenes_of_other_names(project: Project) -> None:
     assert plan.jobs == {rule: count for rule, count in EVERYTHING.items() if rule != "reading"}
 
 
+@pytest.mark.thorough
 def test_deleted_table_is_written_again_alone(project: Project) -> None:
     (project.results / "tables" / "friction_scale_2.csv").unlink()
     assert project.plan().jobs == {"scale_table": 1}

@@ -17,6 +17,7 @@ def table(project: Project, name: str) -> pd.DataFrame:
     return pd.read_csv(io.StringIO(project.tables[name]))
 
 
+@pytest.mark.thorough
 def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, project: Project) -> None:
     written = {name: path.stat().st_mtime_ns for name, path in project.scene_files.items()}
     project.configure("grid.velocities", [1, 10, 100])
@@ -52,6 +53,7 @@ def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, t
     assert project.tables == template.tables
 
 
+@pytest.mark.thorough
 def test_scene_without_a_solution_fails_alone(template: Project, project: Project) -> None:
     fractions = {
         name: fraction for scale in range(1, 5) for name, fraction in contact_fractions(template, scale).items()
@@ -89,6 +91,7 @@ def contact_fractions(project: Project, scale: int) -> dict[str, float]:
     return dict(zip(scenes, rows["contact_fraction"], strict=True))
 
 
+@pytest.mark.thorough
 def test_another_rubber_has_its_own_folder_and_the_way_back_is_free(template: Project, project: Project) -> None:
     soft = {"youngs_modulus": 1.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
     project.configure("rubbers.soft", soft, "config/config.yaml")

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from rubfric.figures.bands import band_handle, bands, draw_band, runs, upper
+from rubfric.figures.bands import bands, draw_band, runs, upper
 
 PLACES = np.array([1.0, 10.0, 100.0, 1000.0])
 NAN = float("nan")
@@ -35,22 +35,6 @@ def test_nothing_is_drawn_where_the_error_is_unknown() -> None:
     panel = Figure().subplots()
     draw_band(panel, PLACES, np.full(4, 0.1), np.array([NAN, np.inf, NAN, NAN]), "red")
     assert bands(panel) == []
-
-
-@pytest.mark.parametrize(
-    ("values", "errors", "words"),
-    [
-        ([0.1, 0.2], [0.0005, 0.0016], "estimated error,\nat most 0.8\N{NO-BREAK SPACE}%"),
-        ([-0.1, 0.2], [0.0021, 0.002], "estimated error,\nat most 2.1\N{NO-BREAK SPACE}%"),
-        ([0.1, NAN], [0.001, NAN], "estimated error,\nat most 1\N{NO-BREAK SPACE}%"),
-        ([0.1, 0.0], [0.001, 0.5], "estimated error,\nat most 1\N{NO-BREAK SPACE}%"),
-        ([0.1, 0.2], [0.001, NAN], "estimated error,\nat most 1\N{NO-BREAK SPACE}%,\nunknown at 1 of 2 points"),
-        ([0.1, 0.2], [np.inf, NAN], "estimated error,\nunknown at 2 of 2 points"),
-        ([0.0, 0.0], [0.0, 0.0], "estimated error"),
-    ],
-)
-def test_legend_tells_the_largest_relative_error(values: list[float], errors: list[float], words: str) -> None:
-    assert band_handle(np.array(values), np.array(errors)).get_label() == words
 
 
 def test_upper_edges_are_known_where_errors_are_not() -> None:

@@ -46,16 +46,6 @@ def test_whiskers_are_the_reference_s_own_error(make_calibration: Maker) -> None
     np.testing.assert_allclose(segments[:2], expected)
 
 
-def test_lines_of_equal_and_tenfold_estimates(make_calibration: Maker) -> None:
-    scatter, shares = calibration.draw(make_calibration()).axes
-    for gid, factor in (("equal", 1.0), ("tenfold", 10.0)):
-        ((low, high),) = drawn(scatter, gid)
-        assert low[1] == pytest.approx(factor * low[0])
-        assert high[1] == pytest.approx(factor * high[0])
-        assert (low[0], high[0]) == scatter.get_xlim() == scatter.get_ylim()
-        assert drawn(shares, gid)[0][:, 0].tolist() == [factor, factor]
-
-
 def test_shares_are_those_of_the_ratios(make_calibration: Maker) -> None:
     _, shares = calibration.draw(make_calibration(sets=("inside",))).axes
     (steps,) = (patch for patch in shares.patches if patch.get_gid() == "shares")
@@ -86,35 +76,7 @@ def test_refused_runs_need_not_be_judged(make_calibration: Maker) -> None:
     assert told(calibration.draw(table))[0] == "inside the paper's grid: 2 of 3 covered (66 %), median ratio 4"
 
 
-def test_legend_tells_coverage_and_median_ratio(make_calibration: Maker) -> None:
-    table = make_calibration()
-    table.loc[table["set"] == "outside", "covered"] = False
-    words = told(calibration.draw(table))
-    # In the order of trust, whatever the order of the table.
-    assert words[:3] == [
-        "ladders: 3 of 4 covered (75 %), median ratio 3",
-        "inside the paper's grid: 3 of 4 covered (75 %), median ratio 3",
-        "outside the paper's grid: 0 of 4 covered (0 %), median ratio 3",
-    ]
-    for text in ("small strain", "finite strain", "estimate = true error", "estimate = 10 x true error"):
-        assert text in words
-
-
-def test_figure_says_what_it_shows(make_calibration: Maker, words: Callable[[Figure], list[str]]) -> None:
-    table = make_calibration()
-    table.loc[0, "estimate"] = np.nan
-    said = words(calibration.draw(table))
-    for text in (
-        "true error of friction (%)",
-        "estimated error (%)",
-        "estimated over true error (-)",
-        "runs with at most this ratio (%)",
-    ):
-        assert text in said
-    note = next(text for text in said if text.startswith("Covered:")).replace("\n", " ")
-    assert note.endswith("1 of 12 runs have no true or no estimated error and are left out.")
-
-
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "sets", [("ladder",), ("ladder", "inside", "outside"), ("ladder", "inside", "outside", "a set of my own", "more")]
 )
@@ -129,6 +91,7 @@ def test_no_words_cover_each_other(
     assert overlaps(figure) == []
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "change",
     [{"error": 0.0}, {"estimate": 0.0}, {"error": 0.0, "estimate": 0.0}, {"reference": 0.0}, {"reference_error": 1.0}],

@@ -33,14 +33,6 @@ def test_fig1_has_a_panel_per_pressure_and_a_line_per_ratio(make_campaign: Maker
             assert values == list(chosen.values)
 
 
-def test_fig1_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
-    said = words(fig1.draw(make_campaign(), [1, 2], [5.0], ASPECTS))
-    for text in ("sliding speed (mm/s)", "friction coefficient (-)", "height-to-width\nratio (-)", "0.25", "1.5"):
-        assert text in said
-    assert "(a) scale 1, pressure 5 MPa" in said
-    assert "(b) scale 2, pressure 5 MPa" in said
-
-
 def test_fig3_has_a_panel_per_pressure_and_a_line_per_speed(make_campaign: Maker, series: Callable[..., Any]) -> None:
     campaign = make_campaign()
     # Ratios in any order.
@@ -52,20 +44,6 @@ def test_fig3_has_a_panel_per_pressure_and_a_line_per_speed(make_campaign: Maker
             assert ratios == list(ASPECTS)
             chosen = campaign["friction_coefficient"].sel(scale=2, pressure=pressure, velocity=speed)
             assert values == list(chosen.values)
-
-
-def test_fig3_says_what_it_shows_and_marks_the_typical_ratio(
-    make_campaign: Maker, words: Callable[..., list[str]]
-) -> None:
-    figure = fig3.draw(make_campaign(), [1], [0.5, 5.0], ASPECTS)
-    said = words(figure)
-    for text in ("height-to-width ratio (-)", "friction coefficient (-)", "sliding speed\n(mm/s)"):
-        assert text in said
-    assert "10\N{NO-BREAK SPACE}000" in said
-    for panel in figure.axes:
-        (mark,) = (line for line in panel.get_lines() if line.get_gid() == "typical")
-        assert list(mark.get_xdata()) == [0.75, 0.75]
-    assert 0.75 in figure.axes[0].get_xticks()
 
 
 @pytest.mark.parametrize(("module", "count"), [(fig1, 3), (fig3, 6)])

@@ -93,51 +93,6 @@ def test_one_colour_scale_for_all_panels(results: list[xr.Dataset]) -> None:
     assert 0.0 < norm.vmin < np.median(density)
 
 
-@pytest.mark.parametrize("factor", [1.0, 100.0])
-def test_ticks_of_a_low_colour_bar_stand_apart(make_result: Maker, factor: float) -> None:
-    results = [make_result(5.0, speed) for speed in (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)]
-    results[0]["strain_energy_density"] *= factor
-    figure = fig4.draw(results)
-    figure.draw_without_rendering()
-    bar = figure.axes[-1]
-    low, high = bar.get_ylim()
-    boxes = [label.get_window_extent() for label in bar.get_yticklabels() if low <= label.get_position()[1] <= high]
-    assert len(boxes) >= 2
-    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
-
-
-def test_contact_and_letters_stand_in_the_panels(results: list[xr.Dataset]) -> None:
-    results[1]["contact_fraction"] = xr.DataArray(0.034)
-    *panels, _ = fig4.draw(results).axes
-    assert [text.get_text() for panel in panels for text in panel.texts] == [
-        "(a) contact 28 %",
-        "(b) contact 3 %",
-        "(c) contact 28 %",
-        "(d) contact 28 %",
-        "(e) contact 28 %",
-        "(f) contact 28 %",
-    ]
-
-
-def test_many_columns_leave_the_word_to_the_note(make_result: Maker, words: Callable[..., list[str]]) -> None:
-    figure = fig4.draw([make_result(1.0, speed) for speed in (0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0)])
-    assert figure.axes[0].texts[0].get_text() == "(a) 28 %"
-    assert "share of the nominal area in contact" in " ".join(words(figure)).replace("\n", " ")
-
-
-def test_one_panel_alone_has_no_letter(make_result: Maker) -> None:
-    assert fig4.draw([make_result()]).axes[0].texts[0].get_text() == "contact 28 %"
-
-
-def test_figure_says_what_it_shows(results: list[xr.Dataset], words: Callable[..., list[str]]) -> None:
-    said = words(fig4.draw(results))
-    for text in ("distance along the road (mm)", "height (mm)", "0.2\nMPa", "5\nMPa"):
-        assert text in said
-    note = " ".join(said).replace("\n", " ").replace("\N{NO-BREAK SPACE}", " ")
-    assert "slides to the right" in note
-    assert "without the mean compression (3.6 % at 0.2 MPa, 90 % at 5 MPa)" in note
-
-
 def test_finite_strain_shows_the_whole_pressed_and_leaning_block(finite: list[xr.Dataset]) -> None:
     *panels, _ = fig4.draw(finite).axes
     for panel, compression in ((panels[0], 0.036 / 1.036), (panels[3], 0.9 / 1.9)):

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig5, style
@@ -72,14 +71,6 @@ def marks(panel: Axes, name: str) -> list[tuple[list[float], list[float]]]:
     return [(list(map(float, line.get_xdata())), list(map(float, line.get_ydata()))) for line in found[::-1]]
 
 
-def legend(figure: Figure) -> list[str]:
-    return [text.get_text() for text in figure.legends[0].get_texts()]
-
-
-def note(figure: Figure) -> str:
-    return figure.get_supxlabel().replace("\n", " ").replace("\N{NO-BREAK SPACE}", " ")
-
-
 def test_lines_begin_where_the_block_moves(series: Callable[..., Any]) -> None:
     results = three()
     figure = fig5.draw(results)
@@ -91,16 +82,6 @@ def test_lines_begin_where_the_block_moves(series: Callable[..., Any]) -> None:
     assert friction == again == list(moving["friction_contact"].values)
     np.testing.assert_allclose(slid, moving["slid"].values / WAVELENGTH)
     assert slid[-1] == pytest.approx(5.25)
-
-
-def test_lines_and_marks_of_a_speed_have_one_colour() -> None:
-    figure = fig5.draw(three())
-    for panel in figure.axes:
-        for place, speed in enumerate(("10\N{NO-BREAK SPACE}000", "10", "1")):
-            line = next(line for line in panel.get_lines() if line.get_label() == speed)
-            steady = [line for line in panel.get_lines() if line.get_gid() == "steady"][place]
-            mean = [line for line in panel.get_lines() if line.get_gid() == "mean"][place]
-            assert line.get_color() == steady.get_color() == mean.get_color() == style.colours(3)[2 - place]
 
 
 def test_steady_values_cross_both_panels() -> None:
@@ -117,66 +98,11 @@ def test_means_lie_in_the_middle_of_their_wavelengths() -> None:
     assert by_step[1] == ([STARTING + 4.5 * PER_WAVELENGTH], values[-1:])
 
 
-def test_markers_too_near_to_another_are_left_out_but_not_the_last() -> None:
-    panel = fig5.draw(three()).axes[1]
-    fast, _, slow = (line for line in panel.get_lines() if line.get_gid() == "mean")
-    assert slow.get_markevery() == [0, 1, 2]
-    shown = fast.get_markevery()
-    assert shown[0] == 0
-    assert shown[-1] == 29
-    assert len(shown) < 30
-    places = np.log10(np.asarray(fast.get_xdata())[shown])
-    low, high = np.log10(panel.get_xlim())
-    assert (np.diff(places) / (high - low) >= 0.035).all()
-
-
 def test_rings_mark_what_is_saturated() -> None:
     results = three()
     for panel in fig5.draw(results).axes:
         heights = [height for _, (height,) in marks(panel, "saturated")]
         assert heights == [float(results[1]["saturation_friction"]), float(results[2]["saturation_friction"])]
-
-
-def test_figure_says_what_it_shows(words: Callable[..., list[str]]) -> None:
-    figure = fig5.draw(three())
-    said = words(figure)
-    for text in (
-        "(a) step by step",
-        "(b) over the distance slid",
-        "time steps since the block began to move (-)",
-        "distance slid (wavelengths)",
-        "friction coefficient (-)",
-        "sliding speed\n(mm/s)",
-    ):
-        assert text in said
-    assert legend(figure) == [
-        "1",
-        "10",
-        "10\N{NO-BREAK SPACE}000\nnot saturated",
-        "steady sliding,\nsolved directly",
-        "mean over\na wavelength",
-        "mean saturated",
-    ]
-    assert note(figure) == (
-        "Scale 1, pressure 0.5 MPa, height-to-width ratio 0.75; finite strain; 16 time steps to a wavelength at full "
-        "speed. Not saturated (wavelengths slid at full speed / that the slowest branch of the rubber remembers): "
-        "30 / 632 at 10 000 mm/s."
-    )
-
-
-def test_note_tells_both_kinematics_and_all_step_counts() -> None:
-    results = [make_march(1.0), make_march(10.0, kinematics_used="small", steps_per_wavelength=32)]
-    said = note(fig5.draw(results))
-    assert said.endswith("; finite and small strain; 16 to 32 time steps to a wavelength at full speed.")
-
-
-@pytest.mark.parametrize("saturated", [True, False])
-def test_one_result(saturated: bool, series: Callable[..., Any]) -> None:
-    figure = fig5.draw([make_march(saturated=saturated)])
-    assert [len(series(panel)) for panel in figure.axes] == [1, 1]
-    assert ("mean saturated" in legend(figure)) == saturated
-    assert ("10\nnot saturated" in legend(figure)) != saturated
-    assert ("5 / 0.5 at 10 mm/s" in note(figure)) != saturated
 
 
 def test_every_value_lies_within_the_axes() -> None:
@@ -192,22 +118,12 @@ def test_every_value_lies_within_the_axes() -> None:
     assert len(marks(by_step, "zero")) == len(marks(by_distance, "zero")) == 1
 
 
-def test_no_line_at_zero_where_friction_is_positive() -> None:
-    assert not marks(fig5.draw([make_march()]).axes[0], "zero")
-
-
 def test_a_start_from_steady_sliding(series: Callable[..., Any]) -> None:
     figure = fig5.draw([make_march(start=False)])
     by_step, by_distance = figure.axes
     assert series(by_step)[0][0][0] == 1.0
     np.testing.assert_allclose(marks(by_distance, "mean")[0][0], np.arange(5) + 0.5)
     assert marks(by_step, "mean")[0][0] == [4.5 * PER_WAVELENGTH]
-
-
-def test_without_a_whole_wavelength_there_is_no_mean() -> None:
-    figure = fig5.draw([make_march(wavelengths=0, saturated=False)])
-    assert all(not marks(panel, name) for panel in figure.axes for name in ("mean", "saturated"))
-    assert legend(figure) == ["10\nnot saturated", "steady sliding,\nsolved directly"]
 
 
 @pytest.mark.parametrize("count", [1, 7, 12])

@@ -91,12 +91,6 @@ def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., li
         assert text in said
 
 
-@pytest.mark.parametrize("scales", [(1,), (1, 2), (1, 2, 3), (1, 2, 3, 4, 5)])
-def test_any_number_of_scales(make_campaign: Maker, scales: tuple[int, ...]) -> None:
-    figure = fig6.draw(make_campaign(scales=scales), 0.75)
-    assert len(figure.axes) == len(scales)
-
-
 def test_pressures_of_other_blocks_are_left_out(make_campaign: Maker) -> None:
     campaign = make_campaign()
     campaign["friction_coefficient"].loc[{"pressure": 1.0, "aspect": 0.75}] = np.nan

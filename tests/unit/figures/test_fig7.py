@@ -60,11 +60,6 @@ def test_areas_lie_upon_each_other(make_campaign: Maker) -> None:
         assert above[0] == pytest.approx(below[1])
 
 
-def test_areas_are_told_apart_by_their_hatches(make_campaign: Maker) -> None:
-    (panel,) = fig7.draw(make_campaign(), 0.75, 5.0).axes
-    assert len({area.get_hatch() for area in panel.collections if area.get_hatch()}) == 4
-
-
 def test_peak_of_the_total_is_marked(make_campaign: Maker) -> None:
     campaign = make_campaign()
     (panel,) = fig7.draw(campaign, 0.75, 5.0).axes
@@ -72,20 +67,6 @@ def test_peak_of_the_total_is_marked(make_campaign: Maker) -> None:
     (ring,) = rings(panel)
     assert ring.get_xdata()[0] == total["velocity"].values[np.argmax(total.values)]
     assert ring.get_ydata()[0] == pytest.approx(total.max().item())
-
-
-def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
-    said = words(fig7.draw(make_campaign(), 0.75, 5.0))
-    for text in (
-        "sliding speed (mm/s)",
-        "friction coefficient (-)",
-        "pressure 5 MPa, height-to-width ratio 0.75",
-        "total",
-        "sampled peak",
-        "scale 1",
-        "scale 4",
-    ):
-        assert text in said
 
 
 def test_band_is_the_sum_of_the_errors_of_the_scales(make_campaign: Maker, words: Callable[..., list[str]]) -> None:

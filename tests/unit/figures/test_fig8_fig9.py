@@ -58,22 +58,6 @@ def test_lines_are_the_simulated_friction_with_its_band(make_campaign: Maker) ->
     assert len(bands(over_pressure)) == len(SPEEDS)
 
 
-@pytest.mark.parametrize(("source", "words"), [("measured", "measured,"), ("simulated", "virtual rig (simulated),")])
-def test_legend_says_where_points_come_from(source: str, words: str, make_campaign: Maker) -> None:
-    figure = fig9.draw(make_campaign(), points(source), 0.75, PRESSURES, SPEEDS)
-    (legend,) = figure.legends
-    told = [text.get_text() for text in legend.get_texts()]
-    assert any(text.startswith(words) for text in told)
-    assert len(told) == 2
-
-
-def test_note_counts_what_is_not_drawn(make_campaign: Maker) -> None:
-    figure = fig9.draw(make_campaign(), points(count=4), 0.75, PRESSURES, SPEEDS)
-    assert figure.get_supxlabel().endswith("; 1 of 4 lie at others and are not drawn.")
-    figure = fig9.draw(make_campaign(), points(), 0.75, PRESSURES, SPEEDS)
-    assert figure.get_supxlabel() == "Points within 10 % of the pressure, or speed, of a line."
-
-
 def test_no_point_and_no_line_are_drawn_too(make_campaign: Maker, tmp_path: Path) -> None:
     figure = fig9.draw(make_campaign(), points(count=0), 0.75, [50.0], [1e6])
     assert figure.get_supxlabel() == "No point could be measured."
@@ -84,18 +68,6 @@ def test_no_point_and_no_line_are_drawn_too(make_campaign: Maker, tmp_path: Path
 def test_table_without_its_columns_is_refused(make_campaign: Maker) -> None:
     with pytest.raises(InvalidInput, match="the table of the rig lacks the column pressure_ci95_MPa"):
         fig9.draw(make_campaign(), points().drop(columns="pressure_ci95_MPa"), 0.75, PRESSURES, SPEEDS)
-
-
-def test_scheme_names_every_part_and_symbol(tmp_path: Path) -> None:
-    figure = fig8.draw()
-    (axes,) = figure.axes
-    told = " ".join(text.get_text() for text in axes.texts)
-    for part in ("hand wheel", "flange sensor", "rubber", "road", "ball bearings", "rope", "sheave", "weight", "rail"):
-        assert part in told
-    for symbol in ("$F_N$", "$F_T$", "$F_b$", "$x$", "$v$", "$A$", "$m$"):
-        assert symbol in told
-    style.save(figure, tmp_path / "fig8.pdf")
-    assert (tmp_path / "fig8.pdf").read_bytes().startswith(b"%PDF-")
 
 
 def test_no_words_of_the_scheme_overlap() -> None:

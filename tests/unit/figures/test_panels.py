@@ -20,28 +20,9 @@ def test_panels_fill_rows_of_at_most_three(count: int, rows: int, columns: int) 
     assert [bool(panel.get_xlabel()) for panel in axes] == [place + columns >= count for place in range(count)]
 
 
-def test_lowest_panels_show_numbers_even_above_an_empty_place() -> None:
-    _, axes = panels.arrange(5, height=2.0)
-    shown = [panel.xaxis.get_tick_params()["labelbottom"] for panel in axes]
-    assert shown == [False, False, True, True, True]
-
-
 def test_nothing_to_show_is_refused() -> None:
     with pytest.raises(InvalidInput, match=r"^the figure has 0 panels, but must show at least one"):
         panels.arrange(0, height=2.0)
-
-
-def test_letters() -> None:
-    assert [panels.letter(place) for place in (0, 3, 25, 26, 53)] == ["(a)", "(d)", "(z)", "(aa)", "(bb)"]
-
-
-def test_one_panel_has_no_letter() -> None:
-    _, axes = panels.arrange(1, height=2.0)
-    panels.entitle(axes, ["scale 1"])
-    assert axes[0].get_title(loc="left") == "scale 1"
-    _, axes = panels.arrange(2, height=2.0)
-    panels.entitle(axes, ["scale 2", "scale 1"])
-    assert [panel.get_title(loc="left") for panel in axes] == ["(a) scale 2", "(b) scale 1"]
 
 
 @pytest.mark.parametrize("count", [1, 2])

@@ -48,19 +48,6 @@ def test_presets_are_named_and_reach_to_the_worst_scene(make_ladder: Maker) -> N
     assert all(len(drawn(panel, "presets")) == 1 for panel in small)
 
 
-def test_reference_s_own_error_is_shaded(make_ladder: Maker) -> None:
-    for panel in pareto.draw(make_ladder()).axes:
-        (shade,) = (patch for patch in panel.patches if patch.get_gid() == "bound")
-        assert shade.get_y() == pytest.approx(panel.get_ylim()[0])
-        assert shade.get_y() + shade.get_height() == pytest.approx(0.02)
-
-
-def test_all_panels_have_the_same_axes(make_ladder: Maker) -> None:
-    large, *small = pareto.draw(make_ladder(KNOBS)).axes
-    assert len(small) == 10
-    assert {(panel.get_xlim(), panel.get_ylim()) for panel in small} == {(large.get_xlim(), large.get_ylim())}
-
-
 def test_errors_below_the_panel_lie_on_its_edge(make_ladder: Maker, tmp_path: Path) -> None:
     table = make_ladder()
     table.loc[table["rung"] == "64", "error"] = 0.0
@@ -91,6 +78,7 @@ def test_nothing_but_zeros_is_drawn(make_ladder: Maker, tmp_path: Path) -> None:
     style.save(pareto.draw(table), tmp_path / "zeros.pdf")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("knobs", [KNOBS, ("preset",), ("mesh", "another")])
 def test_no_words_cover_each_other(
     make_ladder: Maker, knobs: tuple[str, ...], overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
@@ -99,41 +87,6 @@ def test_no_words_cover_each_other(
     style.save(figure, tmp_path / "figure.png")
     assert overlaps(figure) == []
     assert len(figure.axes) == 1 + len(set(knobs) - {"preset"})
-
-
-def test_names_of_presets_that_cost_the_same_stay_apart(
-    make_ladder: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
-) -> None:
-    table = make_ladder(KNOBS)
-    presets = table["knob"] == "preset"
-    table.loc[presets, "cost"] = table.loc[presets, "rung"].map({"draft": 0.9, "standard": 1.0, "reference": 1.1})
-    table.loc[presets, "error"] = 0.01
-    figure = pareto.draw(table)
-    style.save(figure, tmp_path / "figure.png")
-    assert overlaps(figure) == []
-
-
-def test_figure_says_what_it_shows(make_ladder: Maker, words: Callable[[Figure], list[str]]) -> None:
-    table = make_ladder((*KNOBS, "my_knob"))
-    table.loc[0, "error"] = np.nan
-    said = words(pareto.draw(table))
-    for text in (
-        "cost relative to the preset standard (-)",
-        "relative error of friction (%)",
-        "whole mesh",
-        "march: distance slid",
-        "my_knob",
-        "preset",
-        "one scene",
-        "coarsest rung",
-        "reference's own error",
-        "(a) all knobs",
-        "(b) whole mesh\n8, 16, 32, 64",
-        "(g) kinematics\nsmall, finite, auto",
-    ):
-        assert text in said
-    note = next(text for text in said if text.startswith("Lines: medians over 3 scenes")).replace("\n", " ")
-    assert note.endswith(f"1 of {len(table)} runs gave no error or cost and are left out.")
 
 
 def test_bad_table_is_refused(make_ladder: Maker) -> None:

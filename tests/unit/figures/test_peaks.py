@@ -12,10 +12,3 @@ def test_ring_is_at_the_peak_and_in_the_legend() -> None:
     (ring,) = rings(axes)
     assert (ring.get_xdata()[0], ring.get_ydata()[0]) == (10.0, 0.4)
     assert [handle.get_label() for handle in peak_handles(axes)] == ["sampled peak"]
-
-
-def test_no_peak_no_ring_and_no_entry_in_the_legend() -> None:
-    axes = Figure().subplots()
-    mark_peak(axes, np.array([1.0, 10.0, 100.0]), np.array([0.1, 0.2, 0.4]), "red")
-    assert rings(axes) == []
-    assert peak_handles(axes) == []

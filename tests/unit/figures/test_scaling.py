@@ -54,7 +54,7 @@ def test_speed_zero_is_refused(axes: Axes) -> None:
 )
 def test_friction_starts_at_zero_and_holds_everything(axes: Axes, values: list[float], low: float, high: float) -> None:
     scale_friction(axes, np.array(values))
-    assert axes.get_ylim() == pytest.approx((low, high), abs=1e-15)
+    assert axes.get_ylim() == pytest.approx((low, high), abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,5 @@
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import matplotlib as mpl
@@ -25,10 +21,6 @@ def figure() -> Figure:
     return drawn
 
 
-def test_columns_of_the_journal() -> None:
-    np.testing.assert_allclose(np.array([style.COLUMN, style.DOUBLE_COLUMN]) * 25.4, [88.0, 180.0], rtol=1e-12)
-
-
 @pytest.mark.parametrize("count", [2, 4, 8])
 def test_colours_grow_lighter_in_even_steps_of_grey(count: int) -> None:
     linear = np.array([colour[:3] for colour in style.colours(count)]) ** 2.2
@@ -37,19 +29,6 @@ def test_colours_grow_lighter_in_even_steps_of_grey(count: int) -> None:
     assert np.all(steps > 0.5 * (lightness[-1] - lightness[0]) / (count - 1))
     # Dark enough for a line on white paper.
     assert lightness[-1] < 75.0
-
-
-def test_every_line_is_told_apart_without_colour() -> None:
-    looks = style.lines(40)
-    pairs = {(look["marker"], str(look["linestyle"])) for look in looks}
-    assert len(pairs) == 40
-
-
-def test_look_is_gone_after_drawing() -> None:
-    before = dict(mpl.rcParams)
-    with style.applied():
-        assert mpl.rcParams["pdf.fonttype"] == 42
-    assert dict(mpl.rcParams) == before
 
 
 def test_look_does_not_depend_on_the_user_s_settings(tmp_path: Path) -> None:
@@ -91,24 +70,6 @@ def test_saving_twice_gives_the_same_bytes(figure: Figure, tmp_path: Path) -> No
     assert (tmp_path / "first.png").read_bytes() == (tmp_path / "second.png").read_bytes()
 
 
-def test_other_processes_give_the_same_bytes(tmp_path: Path) -> None:
-    program = (
-        "import sys; from matplotlib.figure import Figure; from rubfric.figures import style\n"
-        "with style.applied():\n"
-        "    figure = Figure(figsize=(1.0, 1.0)); axes = figure.subplots()\n"
-        "    axes.fill_between([0.0, 1.0], [0.0, 1.0], hatch='//'); axes.set_title('coefficient')\n"
-        "style.save(figure, sys.argv[1])\n"
-    )
-    started = [
-        subprocess.Popen(
-            [sys.executable, "-c", program, str(tmp_path / f"{seed}.pdf")], env=os.environ | {"PYTHONHASHSEED": seed}
-        )
-        for seed in ("1", "2")
-    ]
-    assert [process.wait(timeout=60.0) for process in started] == [0, 0]
-    assert (tmp_path / "1.pdf").read_bytes() == (tmp_path / "2.pdf").read_bytes()
-
-
 def test_interrupted_saving_leaves_the_old_file_and_nothing_else(
     figure: Figure, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -130,20 +91,6 @@ def test_other_formats_are_refused_before_anything_is_written(figure: Figure, tm
     with pytest.raises(InvalidInput, match=r"cannot be saved as .*a\.svg, but its name must end in \.pdf or \.png$"):
         style.save(figure, tmp_path / "a.pdf", tmp_path / "a.svg")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_threads_draw_what_one_draws(tmp_path: Path) -> None:
-    @style.applied()
-    def draw(place: int) -> Path:
-        figure = Figure(figsize=(1.0, 1.0), layout="constrained")
-        figure.subplots().plot([1.0, 2.0], [0.5, 1.5])
-        target = tmp_path / f"{place}.png"
-        style.save(figure, target)
-        return target
-
-    with ThreadPoolExecutor(4) as pool:
-        contents = {path.read_bytes() for path in pool.map(draw, range(8))}
-    assert len(contents) == 1
 
 
 @pytest.mark.parametrize(

@@ -200,7 +200,7 @@ def test_contact_carries_the_load(result: xr.Dataset) -> None:
 
 def test_road_height_is_the_road(result: xr.Dataset) -> None:
     expected = 0.015 * np.sin(35.0 * result["surface_x"].values)
-    np.testing.assert_allclose(result["road_height"].values, expected, atol=1e-15)
+    np.testing.assert_allclose(result["road_height"].values, expected, atol=1e-12)
 
 
 def test_surface_lies_above_the_road_by_the_gap(small_result: xr.Dataset) -> None:
@@ -235,7 +235,7 @@ def test_local_pressure_is_that_on_the_stretched_surface(scene: Scene) -> None:
     solution = solve_finite(scene, Decision("finite", 0.0, "finite strain was asked for"))
     result = dataset.build(solution, evaluate_finite(solution), 1.0)
     local, nominal = result["local_contact_pressure"].values, result["contact_pressure"].values
-    np.testing.assert_allclose(local * solution.surface_stretch, nominal, rtol=1e-14)
+    np.testing.assert_allclose(local * solution.surface_stretch, nominal, rtol=1e-12)
     assert np.ptp(solution.surface_stretch) > 1e-3
     assert float(result["maximum_local_contact_pressure"]) == local.max()
 
@@ -303,7 +303,7 @@ def test_attributes_suffice_to_compute_the_result_again(asked: Scene, tmp_path: 
     assert scene.digest == known.attrs["scene_digest"]
     again = simulate(scene)
     assert again.attrs == known.attrs
-    xr.testing.assert_allclose(again.drop_vars("wall_time"), known.drop_vars("wall_time"), rtol=1e-12, atol=1e-14)
+    xr.testing.assert_allclose(again.drop_vars("wall_time"), known.drop_vars("wall_time"), rtol=1e-12, atol=1e-12)
 
 
 def test_nominal_compression_is_that_on_a_flat_road(

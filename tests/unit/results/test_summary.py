@@ -98,17 +98,6 @@ def test_finite_strain_is_named_with_its_effort(result: xr.Dataset) -> None:
     assert text.splitlines()[-1] == f"{'kinematics':<34}finite strain was asked for"
 
 
-def test_values_stand_in_one_column(result: xr.Dataset) -> None:
-    lines = summary(result).splitlines()[2:]
-    assert {len(line) - len(line[34:].lstrip()) for line in lines} == {34}
-    assert all(line[33] == " " for line in lines)
-
-
 def test_warnings_follow_as_notes(result: xr.Dataset) -> None:
     result.attrs["warnings"] = "One thing.\nAnother thing."
     assert summary(result).splitlines()[-3:] == ["", "Note: One thing.", "Note: Another thing."]
-
-
-def test_no_note_without_warnings(result: xr.Dataset) -> None:
-    assert "Note" not in summary(result)
-    assert not summary(result).endswith("\n")

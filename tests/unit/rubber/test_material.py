@@ -123,7 +123,7 @@ def test_branch_transfer_tends_to_zero_and_one(paper_rubber: Material) -> None:
 
 def test_branch_carries_half_its_strain_at_its_own_frequency(paper_rubber: Material) -> None:
     own = 1.0 / np.array(paper_rubber.relaxation_times)
-    np.testing.assert_allclose(np.diagonal(paper_rubber.branch_transfer(own)), 0.5 + 0.5j, rtol=1e-14)
+    np.testing.assert_allclose(np.diagonal(paper_rubber.branch_transfer(own)), 0.5 + 0.5j, rtol=1e-12)
 
 
 def test_negative_frequency_gives_the_conjugate(paper_rubber: Material, plane: str, bulk: str) -> None:
@@ -134,7 +134,7 @@ def test_negative_frequency_gives_the_conjugate(paper_rubber: Material, plane: s
         lambda frequency: rubber.plane_modulus(frequency, plane),
         lambda frequency: rubber.thickness_ratio(frequency, plane),
     ):
-        np.testing.assert_allclose(modulus(-FREQUENCIES), np.conj(modulus(FREQUENCIES)), rtol=1e-14)
+        np.testing.assert_allclose(modulus(-FREQUENCIES), np.conj(modulus(FREQUENCIES)), rtol=1e-12)
 
 
 def test_relaxing_bulk_keeps_poissons_ratio_at_every_frequency(paper_rubber: Material, moduli: str) -> None:
@@ -152,8 +152,8 @@ def test_rubber_without_branches_is_elastic(elastic_rubber: Material, plane: str
     shear = 4.17 / 2.98
     assert elastic_rubber.long_term_fraction == 1.0
     assert elastic_rubber.instantaneous_shear_modulus == elastic_rubber.long_term_shear_modulus
-    np.testing.assert_allclose(elastic_rubber.shear_relaxation(np.logspace(-9, 9, 7)), shear, rtol=1e-14)
-    np.testing.assert_allclose(elastic_rubber.complex_shear_modulus(FREQUENCIES).real, shear, rtol=1e-14)
+    np.testing.assert_allclose(elastic_rubber.shear_relaxation(np.logspace(-9, 9, 7)), shear, rtol=1e-12)
+    np.testing.assert_allclose(elastic_rubber.complex_shear_modulus(FREQUENCIES).real, shear, rtol=1e-12)
     assert np.all(elastic_rubber.complex_shear_modulus(FREQUENCIES).imag == 0.0)
     assert np.all(elastic_rubber.plane_modulus(FREQUENCIES, plane).imag == 0.0)
 
@@ -177,7 +177,7 @@ def test_plane_moduli_keep_their_formulas_where_poissons_ratio_does_not_relax(ra
 def test_thickness_ratio_leaves_no_stress_across_the_thickness(ratio: float) -> None:
     solid = Material("solid", 5.0, ratio, (), ())
     across = solid.thickness_ratio(0.0, "stress").real
-    assert across == pytest.approx(-ratio / (1.0 - ratio), abs=1e-14)
+    assert across == pytest.approx(-ratio / (1.0 - ratio), abs=1e-12)
 
 
 def test_thickness_ratio_of_rubber_makes_the_stress_across_vanish_at_every_frequency(paper_rubber: Material) -> None:

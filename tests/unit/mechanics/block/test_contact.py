@@ -159,7 +159,7 @@ def test_full_contact_follows_the_road(paper_rubber: Material) -> None:
     assert np.all(solved.touching)
     assert solved.offset == pytest.approx(0.2, rel=1e-12)
     assert solved.pressure.mean() == pytest.approx(5.0, rel=1e-12)
-    np.testing.assert_allclose(surface_gap(compliance, profile, solved), 0.0, atol=1e-14)
+    np.testing.assert_allclose(surface_gap(compliance, profile, solved), 0.0, atol=1e-12)
 
 
 def test_solver_finds_full_contact_too(paper_rubber: Material) -> None:
@@ -179,7 +179,7 @@ def test_full_contact_is_refused_where_it_would_pull(paper_rubber: Material) -> 
 def test_flat_profile_is_pressed_evenly(paper_rubber: Material) -> None:
     solved = full_contact(spectrum(paper_rubber, 64), np.zeros(64), 2.0)
     assert solved is not None
-    assert np.all(solved.pressure == 2.0)
+    np.testing.assert_allclose(solved.pressure, 2.0, rtol=1e-12)
     assert solved.offset == 0.0
 
 
@@ -236,7 +236,7 @@ def test_convolution_is_a_matrix_of_shifted_kernels(
     surface, kernel = Convolution(compliance, nodes), np.fft.irfft(compliance, nodes)
     dense = np.array([np.roll(kernel, shift) for shift in range(nodes)]).T
     pressure, inside = rng.random(nodes), np.array([0, 3, 4, nodes - 1])
-    np.testing.assert_allclose(surface.deflection(pressure), dense @ pressure, atol=1e-13 * np.abs(dense).sum())
+    np.testing.assert_allclose(surface.deflection(pressure), dense @ pressure, atol=1e-12 * np.abs(dense).sum())
     np.testing.assert_array_equal(surface.matrix(inside), dense[np.ix_(inside, inside)])
 
 
@@ -278,7 +278,7 @@ def test_solve_contact_pivots_a_convolution(paper_rubber: Material) -> None:
 def test_flat_surface_without_a_mean_compliance_is_pressed_evenly(paper_rubber: Material) -> None:
     # Where all nodes touch, only the load tells the mean pressure.
     solved = solve_contact(spectrum(paper_rubber, 64), np.full(64, 0.3), 2.0, everywhere(64))
-    np.testing.assert_allclose(solved.pressure, 2.0, rtol=1e-9)
+    np.testing.assert_allclose(solved.pressure, 2.0, rtol=1e-7)
     assert solved.offset == pytest.approx(0.3, rel=1e-12)
 
 

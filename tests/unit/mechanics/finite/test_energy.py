@@ -73,12 +73,12 @@ def test_branch_tensors_have_followed_where_nothing_changes_along_the_road(plane
     finite = coarse(plane)
     state = deformation(finite, uniform(finite, 0.8, 0.2, 1.1))
     for branch in branch_tensors(finite, state):
-        np.testing.assert_allclose(branch, state.inverse, atol=1e-14)
+        np.testing.assert_allclose(branch, state.inverse, atol=1e-12)
         np.testing.assert_allclose(np.linalg.det(full(branch)), 1.0, rtol=1e-12)
     rest = deformation(finite, finite.at_rest())
     identity = np.array([1.0, 1.0, 0.0, 1.0])[:, None, None, None]
     for branch in branch_tensors(finite, rest):
-        np.testing.assert_allclose(branch, np.broadcast_to(identity, branch.shape), atol=1e-15)
+        np.testing.assert_allclose(branch, np.broadcast_to(identity, branch.shape), atol=1e-12)
 
 
 @PLANES
@@ -86,7 +86,7 @@ def test_branch_tensors_keep_the_mean_of_what_they_follow(plane: str, rng: np.ra
     finite = coarse(plane)
     state = deformation(finite, strained(finite, rng))
     for branch in branch_tensors(finite, state):
-        np.testing.assert_allclose(branch.mean(axis=-1), state.inverse.mean(axis=-1), atol=1e-13)
+        np.testing.assert_allclose(branch.mean(axis=-1), state.inverse.mean(axis=-1), atol=1e-12)
 
 
 @PLANES
@@ -95,7 +95,7 @@ def test_block_that_is_the_same_everywhere_dissipates_nothing(plane: str, rubber
     finite = coarse(plane, rubber)
     lost, stored = dissipated_and_stored(finite, deformation(finite, uniform(finite, 0.8, 0.0, 1.1)))
     rate = rubber.instantaneous_shear_modulus / min(rubber.relaxation_times, default=1.0)
-    np.testing.assert_allclose(lost, 0.0, atol=1e-13 * rate)
+    np.testing.assert_allclose(lost, 0.0, atol=1e-12 * rate)
     known = stored_energy(rubber, 0.8, 1.1 if plane == "stress" else 1.0)
     np.testing.assert_allclose(stored, known, rtol=1e-11)
 
@@ -182,7 +182,7 @@ def test_dissipation_tends_to_that_of_small_strain(plane: str) -> None:
 def test_nodal_density_of_a_constant_is_that_constant(plane: str) -> None:
     finite = coarse(plane)
     density = nodal_density(finite, np.full((finite.points, finite.block.rows, finite.block.columns), 0.7))
-    np.testing.assert_allclose(density, 0.7, rtol=1e-13)
+    np.testing.assert_allclose(density, 0.7, rtol=1e-12)
     assert density.shape == (finite.block.rows + 1, finite.block.columns)
 
 

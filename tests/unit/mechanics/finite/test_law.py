@@ -92,12 +92,12 @@ def test_deformation_is_that_of_plain_tensor_algebra(unknowns: Real) -> None:
     state, gradient = deformed(unknowns), full_gradient(unknowns)
     squared = gradient.swapaxes(1, 2) @ gradient
     volume = np.linalg.det(gradient)
-    np.testing.assert_allclose(full(state.squared), squared, atol=1e-14)
-    np.testing.assert_allclose(state.volume, volume, rtol=1e-13)
-    np.testing.assert_allclose(state.area, np.linalg.det(gradient[:, :2, :2]), rtol=1e-13)
+    np.testing.assert_allclose(full(state.squared), squared, atol=1e-12)
+    np.testing.assert_allclose(state.volume, volume, rtol=1e-12)
+    np.testing.assert_allclose(state.area, np.linalg.det(gradient[:, :2, :2]), rtol=1e-12)
     isochoric = volume[:, None, None] ** (-2.0 / 3.0) * squared
-    np.testing.assert_allclose(full(state.isochoric_squared), isochoric, rtol=1e-12, atol=1e-14)
-    np.testing.assert_allclose(full(state.inverse), np.linalg.inv(isochoric), rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(full(state.isochoric_squared), isochoric, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(full(state.inverse), np.linalg.inv(isochoric), rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(np.linalg.det(full(state.inverse)), 1.0, rtol=1e-12)
 
 
@@ -121,9 +121,9 @@ def test_first_stress_is_the_gradient_times_the_second(unknowns: Real, branch: R
     first, second = (kind(state, *driven(state, branch)) for kind in (stress, second_stress))
     product = full_gradient(unknowns) @ full(second)
     scale = np.abs(first).max()
-    np.testing.assert_allclose(first[:4].T.reshape(POINTS, 2, 2), product[:, :2, :2], atol=1e-13 * scale)
+    np.testing.assert_allclose(first[:4].T.reshape(POINTS, 2, 2), product[:, :2, :2], atol=1e-12 * scale)
     if len(unknowns) == 5:
-        np.testing.assert_allclose(first[4], state.squared[ZZ] * second[ZZ], atol=1e-13 * scale)
+        np.testing.assert_allclose(first[4], state.squared[ZZ] * second[ZZ], atol=1e-12 * scale)
 
 
 def test_second_stress_is_that_of_plain_tensor_algebra(unknowns: Real, branch: Real) -> None:
@@ -196,7 +196,7 @@ def test_rotation_turns_the_first_stress_and_nothing_else(unknowns: Real, branch
     first, rotated = (stress(state, *driven(state, branch)) for state in (one, other))
     scale = np.abs(first).max()
     np.testing.assert_allclose(energy(turned, branch), energy(unknowns, branch), rtol=1e-12)
-    np.testing.assert_allclose(other.inverse, one.inverse, atol=1e-13)
+    np.testing.assert_allclose(other.inverse, one.inverse, atol=1e-12)
     expected = np.einsum("ij,jkp->ikp", turn, first[:4].reshape(2, 2, POINTS)).reshape(4, POINTS)
     np.testing.assert_allclose(rotated[:4], expected, atol=1e-12 * scale)
     np.testing.assert_allclose(rotated[4:], first[4:], atol=1e-12 * scale)
@@ -211,7 +211,7 @@ def test_rest_is_free_of_stress(plane: str) -> None:
     state = deformed(rest)
     identity = np.zeros((4, POINTS))
     identity[[XX, YY, ZZ]] = 1.0
-    np.testing.assert_allclose(stress(state, *driven(state, identity)), 0.0, atol=1e-15 * SHEAR)
+    np.testing.assert_allclose(stress(state, *driven(state, identity)), 0.0, atol=1e-12 * SHEAR)
 
 
 def test_small_strains_are_those_of_linear_elasticity(elastic_rubber: Material, rng: np.random.Generator) -> None:

@@ -79,7 +79,9 @@ def test_everything_is_recorded(soft_scene: SceneMaker, kinematics: str, plane: 
 
 
 @KINDS
-@pytest.mark.parametrize("material", [RUBBER, PROPORTIONAL], ids=["elastic bulk", "both"])
+@pytest.mark.parametrize(
+    "material", [pytest.param(RUBBER, marks=pytest.mark.thorough), PROPORTIONAL], ids=["elastic bulk", "both"]
+)
 def test_first_law_closes_in_every_step_the_better_the_shorter_it_is(
     soft_scene: SceneMaker, kinematics: str, material: Material
 ) -> None:

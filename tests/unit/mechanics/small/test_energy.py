@@ -175,7 +175,7 @@ def test_flat_road_leaves_the_pressed_block(paper_scene: SceneMaker, plane: str)
     np.testing.assert_allclose(result.depth_profile, 25.0 / (2.0 * modulus), rtol=1e-12)
     assert np.all(result.displacement[:, 0] == 0.0)
     settled = -5.0 / modulus * solution.block.row_positions[:, None]
-    np.testing.assert_allclose(result.displacement[:, 1], settled + 0.0 * result.displacement[:, 1], atol=1e-16)
+    np.testing.assert_allclose(result.displacement[:, 1], settled + 0.0 * result.displacement[:, 1], atol=1e-12)
 
 
 @PLANES
@@ -183,7 +183,7 @@ def test_displacement_follows_the_road_in_full_contact(paper_scene: SceneMaker, 
     scene = paper_scene(1.0, 5.0, plane=plane)
     displacement = evaluate_small(solve(scene)).displacement
     columns = scene.road.wavelength * np.arange(displacement.shape[2]) / displacement.shape[2]
-    np.testing.assert_allclose(displacement[0, 1], scene.road.height(columns), atol=1e-15)
+    np.testing.assert_allclose(displacement[0, 1], scene.road.height(columns), atol=1e-12)
 
 
 @PLANES

@@ -115,8 +115,8 @@ def test_single_harmonics_are_those_of_the_whole_set(paper_rubber: Material, roa
 def test_sliding_the_other_way_conjugates_the_response(paper_rubber: Material, road: SineScale, plane: str) -> None:
     block = small_block(road, plane)
     forth, back = (respond(block, paper_rubber, velocity, HARMONICS) for velocity in (VELOCITY, -VELOCITY))
-    np.testing.assert_allclose(back.compliance, np.conj(forth.compliance), rtol=1e-13)
-    np.testing.assert_allclose(back.shear_ratio, np.conj(forth.shear_ratio), rtol=1e-13)
+    np.testing.assert_allclose(back.compliance, np.conj(forth.compliance), rtol=1e-12)
+    np.testing.assert_allclose(back.shear_ratio, np.conj(forth.shear_ratio), rtol=1e-12)
     assert np.all(forth.compliance.imag < 0.0)
 
 
@@ -171,7 +171,7 @@ def test_moduli_of_plane_stress_relax_the_thickness(paper_rubber: Material, bulk
     trace = 1.0 + rubber.thickness_ratio(frequency, "stress")
     expected = (rubber.complex_bulk_modulus(frequency) - 2.0 / 3.0 * rubber.complex_shear_modulus(frequency)) * trace
     np.testing.assert_allclose(dilatation, expected, rtol=1e-11, atol=1e-11 * np.abs(shear).max())
-    np.testing.assert_allclose(shear, rubber.complex_shear_modulus(frequency), rtol=1e-15)
+    np.testing.assert_allclose(shear, rubber.complex_shear_modulus(frequency), rtol=1e-12)
 
 
 @pytest.mark.parametrize("columns", [32, 1024])

@@ -37,7 +37,7 @@ def test_full_contact_takes_one_harmonic_and_no_pivots(paper_scene: SceneMaker, 
     assert solution.block.columns == scene.numerics.columns_min
     np.testing.assert_array_equal(solution.response.harmonics, [1])
     surface = 2.0 * np.real(solution.surface[0] * np.exp(1j * scene.road.wavenumber * solution.block.column_positions))
-    np.testing.assert_allclose(surface, scene.road.height(solution.block.column_positions), atol=1e-16)
+    np.testing.assert_allclose(surface, scene.road.height(solution.block.column_positions), atol=1e-12)
 
 
 @PLANES
@@ -169,7 +169,7 @@ def test_surface_is_that_of_the_block_as_it_was_made(paper_scene: SceneMaker) ->
 @PLANES
 def test_compression_is_load_over_confined_modulus(paper_scene: SceneMaker, plane: str) -> None:
     solution = solve(paper_scene(1.0, 9.0, plane=plane))
-    assert solution.compression == pytest.approx(9.0 / solution.scene.material.confined_modulus(plane), rel=1e-14)
+    assert solution.compression == pytest.approx(9.0 / solution.scene.material.confined_modulus(plane), rel=1e-12)
 
 
 @PLANES

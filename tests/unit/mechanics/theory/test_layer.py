@@ -34,7 +34,7 @@ def test_layer_factor_has_no_step_where_series_and_formula_meet() -> None:
 
 
 def test_deep_layer_is_a_half_space() -> None:
-    np.testing.assert_allclose(reference.layer_factor([20.0, 39.9, 40.1, 1e3, 1e300]), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(reference.layer_factor([20.0, 39.9, 40.1, 1e3, 1e300]), 1.0, rtol=1e-12)
 
 
 def test_layer_factor_rises_with_depth() -> None:
@@ -92,14 +92,14 @@ def test_flat_road_needs_no_pressure_and_has_no_friction(paper_rubber: Material)
 
 def test_westergaard_without_load_half_way_and_filled() -> None:
     np.testing.assert_allclose(
-        reference.westergaard_contact_fraction([0.0, 0.5, 1.0, 3.0]), [0.0, 0.5, 1.0, 1.0], atol=1e-15
+        reference.westergaard_contact_fraction([0.0, 0.5, 1.0, 3.0]), [0.0, 0.5, 1.0, 1.0], atol=1e-12
     )
 
 
 def test_westergaard_solves_its_equation() -> None:
     ratio = np.linspace(0.0, 1.0, 101)
     fraction = reference.westergaard_contact_fraction(ratio)
-    np.testing.assert_allclose(np.sin(0.5 * np.pi * fraction) ** 2, ratio, atol=1e-14)
+    np.testing.assert_allclose(np.sin(0.5 * np.pi * fraction) ** 2, ratio, atol=1e-12)
 
 
 def test_westergaard_tends_to_hertz_for_light_loads() -> None:
