@@ -32,7 +32,7 @@ class Material:
     Parameters
     ----------
     name : str
-        Name of the rubber, as it stands in paths.
+        Name of the rubber, as used in paths.
     youngs_modulus : float
         Young's modulus E, MPa; long-term or instantaneous as ``moduli`` says.
     poissons_ratio : float

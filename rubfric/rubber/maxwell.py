@@ -75,7 +75,7 @@ class Relaxation:
 
     @property
     def follows(self) -> bool:
-        """Whether the step before tells how this one begins."""
+        """Whether the slope at the begin follows from the step before."""
         return _SHORTEST * self.duration <= self.before < np.inf
 
     @property

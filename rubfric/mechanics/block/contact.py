@@ -195,7 +195,7 @@ def pivot(
 def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
     """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
     count = len(inside)
-    # The load stands in the system: where all nodes touch, pressures alone would be unknown by a constant.
+    # The load is an equation of the system: where all nodes touch, pressures alone would be unknown by a constant.
     system = np.zeros((count + 1, count + 1))
     system[:count, :count] = surface.matrix(inside)
     unit = float(np.abs(system.diagonal()).max())

@@ -19,7 +19,7 @@ from rubfric.mechanics.finite.contact import Correction, Linearised, Load, Slidi
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
-# A direction that took more Krylov iterations is worth a new average of the tangent, unless told otherwise.
+# A direction that took more Krylov iterations is worth a new average of the tangent, by default.
 _WORTH = 6
 _MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0

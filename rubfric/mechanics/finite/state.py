@@ -15,7 +15,7 @@ import numpy as np
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.law import Inverted, elongation, excess, inverted, trace, volumetric_energy
-from rubfric.mechanics.finite.memory import StepPast
+from rubfric.mechanics.finite.memory import StepHistory
 from rubfric.rubber.maxwell import Relaxation
 
 # Points and weights in a step at which dissipation is taken: Gauss, exact for what varies as a parabola, and beyond.
@@ -108,8 +108,18 @@ class Branches:
         volume = np.zeros((branches if self._bulk_relaxes else 0, *fields.volume.shape))
         return np.zeros((4, branches, *inverse.shape[1:])), volume
 
-    def past(self, state: FiniteState, relaxation: Relaxation) -> StepPast:
-        """Return what the rubber remembers at the end of a step from a state."""
+    def history(self, state: FiniteState, relaxation: Relaxation) -> StepHistory:
+        """Return H, M, B and N at the end of a step from a state.
+
+        With the factors of ``rubber.maxwell`` D_i is decay D_i0 - share (Cb^-1 - Cb^-1_0) + lag P, P being the change
+        of Cb^-1 in the step before.
+
+        Parameters
+        ----------
+        state : FiniteState
+            At the begin of the step.
+        relaxation : Relaxation
+        """
         shear, lag = float(self._shear @ relaxation.share), float(self._shear @ relaxation.lag)
         driving = np.tensordot(self._shear * relaxation.decay, state.behind, axes=(0, 1))
         driving += shear * state.inverse + lag * state.inverse_change
@@ -119,7 +129,7 @@ class Branches:
             bulk, lag = float(self._bulk @ relaxation.share), float(self._bulk @ relaxation.lag)
             kept = np.tensordot(self._bulk * relaxation.decay, state.volume_behind, axes=1)
             pressure = kept - bulk * state.fields.volume - lag * state.volume_change
-        return StepPast(shear, bulk, driving, pressure, len(self._finite.block.harmonics))
+        return StepHistory(shear, bulk, driving, pressure, len(self._finite.block.harmonics))
 
     def follow(self, state: FiniteState, relaxation: Relaxation, inverse: Real, volume: Real) -> tuple[Real, Real]:
         """Return D_i and J - J_i at the end of a step from a state to some Cb^-1 and J.
@@ -135,10 +145,10 @@ class Branches:
         behind = decay * state.behind - share * (inverse - state.inverse)[:, None] + lag * state.inverse_change[:, None]
         if behind.size:
             _check(inverse[:, None] + behind)
-        swollen = state.volume_behind
+        volume_behind = state.volume_behind
         if self._bulk_relaxes:
-            swollen = decay * swollen + share * (volume - state.fields.volume) - lag * state.volume_change
-        return behind, swollen
+            volume_behind = decay * volume_behind + share * (volume - state.fields.volume) - lag * state.volume_change
+        return behind, volume_behind
 
     def stored(self, squared: Real, inverse: Real, volume: Real, behind: Real, volume_behind: Real) -> float:
         """Return the energy stored in the block, N mm per mm of thickness, from Cb, Cb^-1, J and the branches."""

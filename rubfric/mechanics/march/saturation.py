@@ -1,6 +1,6 @@
-"""Whether the friction of a march has settled: by what it did over as long as the slowest branch remembers.
+"""Whether the friction of a march has settled: by what it did over the memory of the slowest branch.
 
-Means over a wavelength that hardly differ do not prove saturation where the slowest branch remembers many wavelengths:
+Means over a wavelength that hardly differ do not prove saturation where the slowest branch relaxes over many of them:
 friction may turn, or go on by the same small change for as long. It counts as saturated when its means have stayed
 within the tolerance over the whole of that memory, tau v / lambda wavelengths, and at least over two wavelengths.
 """

@@ -30,7 +30,7 @@ def evaluate_small(solution: SmallSolution) -> Energies:
     displacement = solution.response.displacement(solution.surface)
     thickness = material.thickness_ratio(frequencies, scene.plane)
     strain = harmonic_strain(block, solution.response, thickness, displacement)
-    # An amplitude stands for a harmonic and its conjugate: twice.
+    # An amplitude counts for a harmonic and for its conjugate.
     scale = 2.0 * block.columns / (scene.velocity * scene.pressure * block.width)
     power = stress_power(material, frequencies, strain).sum()
     lost = viscous_dissipation(material, frequencies, strain).sum()
