@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -71,7 +70,7 @@ class FiniteSolution(SteadySolution):
         """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
         return stored_energy(self.scene.material, *self._pressed)
 
-    @cached_property
+    @property
     def _pressed(self) -> tuple[float, float]:
         return pressed(self.scene.material, self.scene.pressure, self.scene.plane)
 
