@@ -42,6 +42,11 @@ class Mechanics:
     def solve(self, scene: Scene, decision: Decision) -> SteadySolution:
         """Slide a block steadily over its road, on meshes that follow from the contact and the accuracy.
 
+        Parameters
+        ----------
+        scene : Scene
+        decision : Decision
+
         Raises
         ------
         NotConverged

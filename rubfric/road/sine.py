@@ -73,7 +73,15 @@ class SineScale:
 
 
 def scales_from_config(name: str, entry: Any) -> tuple[SineScale, ...]:
-    """Read one entry of ``roads``, a list of scales from coarse to fine; InvalidInput names what is wrong."""
+    """Read one entry of ``roads``, a list of scales from coarse to fine; InvalidInput names what is wrong.
+
+    Parameters
+    ----------
+    name : str
+        Of the road.
+    entry : object
+        As read from YAML.
+    """
     if not isinstance(entry, (list, tuple)) or not entry:
         raise InvalidInput(f"roads.{name} is {checks.shown(entry)}, but must be a list of at least one scale")
     scales = []

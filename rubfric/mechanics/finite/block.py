@@ -45,7 +45,13 @@ class Fields:
     volume: Real
 
     def moved(self, step: Fields, share: float = 1.0) -> Fields:
-        """Return these fields plus a share of a step."""
+        """Return these fields plus a share of a step.
+
+        Parameters
+        ----------
+        step : Fields
+        share : float
+        """
         return Fields(
             self.displacement + share * step.displacement,
             self.log_thickness + share * step.log_thickness,
@@ -204,12 +210,25 @@ class FiniteBlock:
         return Stressed(state, driving, volumetric, stress(state, driving, volumetric), excess)
 
     def stiffness(self, fields: Fields, state: Stressed) -> Stiffness:
-        """Return the tangent at the points of a state."""
+        """Return the tangent at the points of a state.
+
+        Parameters
+        ----------
+        fields : Fields
+        state : Stressed
+            Of these fields.
+        """
         _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
         return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
 
     def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
-        """Return the change of the stresses, MPa, and of the volume's excess under a small step."""
+        """Return the change of the stresses, MPa, and of the volume's excess under a small step.
+
+        Parameters
+        ----------
+        stiffness : Stiffness
+        step : Fields
+        """
         points = stiffness.points
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
         driving = -self.history.shear(_apply(points.inverse, change))
@@ -222,7 +241,14 @@ class FiniteBlock:
         return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
 
     def stress_power(self, fields: Fields, state: Stressed) -> Real:
-        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns)."""
+        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns).
+
+        Parameters
+        ----------
+        fields : Fields
+        state : Stressed
+            Of these fields.
+        """
         unknowns = np.concatenate((state.deformation.gradient, fields.log_thickness))
         rate: Complex = 1j * self.frequencies.astype(complex)
         rate[-1] = 0.0  # the phase of the last harmonic is unknown
@@ -234,7 +260,14 @@ class FiniteBlock:
         return volume if self.block.pointwise else volume.mean(axis=0, keepdims=True)
 
     def convolve(self, kernel: Complex, field: Real) -> Real:
-        """Return the convolution along the road of a field with a kernel given by its harmonics."""
+        """Return the convolution along the road of a field with a kernel given by its harmonics.
+
+        Parameters
+        ----------
+        kernel : ndarray of complex, shape (n,)
+            For the harmonics 0 to columns / 2.
+        field : ndarray, shape (..., columns)
+        """
         return convolve(kernel, field)
 
 

@@ -56,12 +56,28 @@ class AttemptLog:
         self.work += applications * (block.columns * block.rows + _PER_APPLICATION)
 
     def solved(self, problem: SlidingContact, what: str, solved: Solved) -> None:
-        """Record a success."""
+        """Record a success.
+
+        Parameters
+        ----------
+        problem : SlidingContact
+        what : str
+            Name of the attempt in the log.
+        solved : Solved
+        """
         self._count(problem, solved.steps, solved.krylov)
         self.lines.append(f"{what}: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
 
     def left(self, problem: SlidingContact, what: str, stalled: Stalled) -> None:
-        """Record a failure."""
+        """Record a failure.
+
+        Parameters
+        ----------
+        problem : SlidingContact
+        what : str
+            Name of the attempt in the log.
+        stalled : Stalled
+        """
         self._count(problem, stalled.steps, stalled.krylov)
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
@@ -71,10 +87,14 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
 
     Parameters
     ----------
+    problem : SlidingContact
     flat : Start
         The solution on a flat road.
+    load : Load
     tolerance : float
         As for ``newton``.
+    log : AttemptLog
+        Gets a line for every attempt.
 
     Raises
     ------
@@ -114,6 +134,18 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
 
 def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float, log: AttemptLog, what: str) -> Solved:
     """Run Newton's method once and record how it went.
+
+    Parameters
+    ----------
+    problem : SlidingContact
+    start : Start
+    load : Load
+    tolerance : float
+        As for ``newton``.
+    log : AttemptLog
+        Gets a line for every attempt.
+    what : str
+        Name of the attempt in the log.
 
     Raises
     ------

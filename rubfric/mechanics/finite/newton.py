@@ -85,6 +85,11 @@ def newton(
 
     Parameters
     ----------
+    problem : SlidingContact
+    start : Fields
+    load : Load
+    touching : ndarray of bool, shape (columns,)
+        First guess of the contact nodes.
     tolerance : float
         Size of u - T(u), as ``SlidingContact.size`` measures it, at which to stop.
     circulant : Circulant, optional

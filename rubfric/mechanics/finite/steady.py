@@ -80,6 +80,11 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
 
     The mesh follows from the contact, and is refined as ``rubfric.mechanics.steady.refinement`` says.
 
+    Parameters
+    ----------
+    scene : Scene
+    decision : Decision
+
     Raises
     ------
     NotConverged

@@ -103,6 +103,13 @@ def stiffness_moduli(material: Material, frequency: Real, plane: str) -> tuple[C
 
     Plane strain: G* and K*. Plane stress, without stress across the thickness: G* and
     L* = 2 G* (3 K* - 2 G*) / (3 K* + 4 G*).
+
+    Parameters
+    ----------
+    material : Material
+    frequency : array_like, shape (...)
+        Angular frequency, rad/s.
+    plane : {"stress", "strain"}
     """
     shear, bulk = material.complex_shear_modulus(frequency), material.complex_bulk_modulus(frequency)
     if plane == "strain":
@@ -117,6 +124,8 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
 
     Parameters
     ----------
+    block : Block
+    material : Material
     velocity : float
         v, mm/s; negative slides the other way.
     harmonics : ndarray of int, shape (n,)

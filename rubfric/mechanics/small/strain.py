@@ -41,6 +41,8 @@ def harmonic_strain(
 
     Parameters
     ----------
+    block : Block
+    response : HarmonicResponse
     thickness : ndarray of complex, shape (n,)
         Strain across the thickness over in-plane dilatation, for each harmonic.
     displacement : ndarray of complex, shape (rows + 1, 2, n)
