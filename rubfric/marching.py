@@ -14,11 +14,10 @@ from rubfric.mechanics.march.result import FEWEST_NODES, Transient
 from rubfric.mechanics.march.step import Stepper
 from rubfric.mechanics.small.march import SmallStepper
 from rubfric.mechanics.steady.energies import MOST_CLOSURE
-from rubfric.mechanics.theory.kinematics import decide
-from rubfric.mechanics.theory.limits import require_columns, require_digits, require_height
+from rubfric.mechanics.theory.limits import require_columns
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
-from rubfric.simulation import MECHANICS
+from rubfric.simulation import MECHANICS, decide_solvable
 
 STEPPERS: dict[str, Callable[[Scene, Block], Stepper]] = {"small": SmallStepper, "finite": FiniteStepper}
 # Seconds between two lines of progress.
@@ -97,12 +96,8 @@ def begin(scene: Scene, procedure: Procedure) -> March:
     InvalidInput
         As ``march`` does.
     """
-    decision = decide(scene)
-    finite = decision.kinematics == "finite"
-    require_digits(scene, finite)
+    decision = decide_solvable(scene)
     require_columns(scene, procedure.columns, FEWEST_NODES)
-    if finite:
-        require_height(scene)
     return March(scene, procedure, decision, STEPPERS[decision.kinematics], MECHANICS[decision.kinematics].solve)
 
 

@@ -42,6 +42,11 @@ class Mechanics:
     def solve(self, scene: Scene, decision: Decision) -> SteadySolution:
         """Slide a block steadily over its road, on meshes that follow from the contact and the accuracy.
 
+        Parameters
+        ----------
+        scene : Scene
+        decision : Decision
+
         Raises
         ------
         NotConverged
@@ -82,11 +87,8 @@ def simulate(scene: Scene) -> xr.Dataset:
     0.206
     """
     started = time.perf_counter()
-    decision = decide(scene)
+    decision = decide_solvable(scene)
     finite = decision.kinematics == "finite"
-    require_digits(scene, finite)
-    if finite:
-        require_height(scene)
     remedy = finer_mesh(finite)
     require_resolvable(scene, most_columns(scene, finite), remedy)
     mechanics = MECHANICS[decision.kinematics]
@@ -102,6 +104,21 @@ def simulate(scene: Scene) -> xr.Dataset:
             "the mesh does not resolve this scene, or Poisson's ratio is too near -1: raise the pressure; " + remedy,
         )
     return dataset.build(solution, energies, time.perf_counter() - started)
+
+
+def decide_solvable(scene: Scene) -> Decision:
+    """Return the kinematics in which to solve a scene, steadily sliding or in time, and why.
+
+    Raises
+    ------
+    InvalidInput
+        Where the rubber is too nearly incompressible, or the load leaves hardly anything of the block.
+    """
+    decision = decide(scene)
+    require_digits(scene, decision.kinematics == "finite")
+    if decision.kinematics == "finite":
+        require_height(scene)
+    return decision
 
 
 def solve(scene: Scene) -> SteadySolution:

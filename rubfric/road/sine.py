@@ -63,5 +63,5 @@ class SineScale:
         return -self.wavenumber * self.wavenumber * self.height(position)
 
     def excitation_frequency(self, velocity: float) -> float:
-        """Return k v, rad/s: the frequency that the rubber feels when it slides at ``velocity`` mm/s."""
+        """Return k v, rad/s: the frequency at which the road excites rubber that slides at ``velocity`` mm/s."""
         return self.wavenumber * velocity

@@ -161,6 +161,12 @@ class Material:
         """Return strain across the thickness over the in-plane dilatation: 0 in plane strain, dimensionless.
 
         In plane stress the stress across the thickness vanishes: -(3K - 2G) / (3K + 4G).
+
+        Parameters
+        ----------
+        frequency : array_like, shape (...)
+            Angular frequency, rad/s.
+        plane : {"stress", "strain"}
         """
         shear = self.complex_shear_modulus(frequency)
         if plane == "strain":
@@ -169,7 +175,14 @@ class Material:
         return -(3.0 * bulk - 2.0 * shear) / (3.0 * bulk + 4.0 * shear)
 
     def plane_modulus(self, frequency: ArrayLike, plane: str) -> Complex:
-        """Return the modulus E* of plane contact, MPa: 4G(3K+G)/(3K+4G) in strain, 9KG/(3K+G) in stress."""
+        """Return the modulus E* of plane contact, MPa: 4G(3K+G)/(3K+4G) in strain, 9KG/(3K+G) in stress.
+
+        Parameters
+        ----------
+        frequency : array_like, shape (...)
+            Angular frequency, rad/s.
+        plane : {"stress", "strain"}
+        """
         shear, bulk = self.complex_shear_modulus(frequency), self.complex_bulk_modulus(frequency)
         if plane == "strain":
             return 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear)

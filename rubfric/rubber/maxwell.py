@@ -75,7 +75,7 @@ class Relaxation:
 
     @property
     def follows(self) -> bool:
-        """Whether the step before tells how this one begins."""
+        """Whether the slope at the begin follows from the step before."""
         return _SHORTEST * self.duration <= self.before < np.inf
 
     @property
@@ -84,7 +84,15 @@ class Relaxation:
         return 1.0 / (1.0 + self.before / self.duration) if self.follows else 0.0
 
     def bow(self, change: Numbers, previous: Numbers) -> Numbers:
-        """Return q from the changes D and P."""
+        """Return q from the changes D and P.
+
+        Parameters
+        ----------
+        change : ndarray, shape (...)
+            D.
+        previous : ndarray, shape (...)
+            P.
+        """
         answer: Numbers = self._curved * (change - self.duration / self.before * previous)
         return answer
 

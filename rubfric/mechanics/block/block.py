@@ -82,7 +82,24 @@ class Block:
         first_row: float = 1.0,
         dilatation: str = "auto",
     ) -> Block:
-        """Mesh a block: rows grow upwards by about ``growth`` from ``first_row`` column widths at the road."""
+        """Mesh a block: rows grow upwards by about ``growth`` from ``first_row`` column widths at the road.
+
+        Parameters
+        ----------
+        width : float
+            mm.
+        height : float
+            mm.
+        columns : int
+            Cells along the road.
+        plane : {"stress", "strain"}
+        growth : float
+            Ratio of the heights of neighbouring rows, above 1.
+        first_row : float
+            Height of the row at the road over the width of a column.
+        dilatation : {"auto", "pointwise", "mean"}
+            See the class.
+        """
         rows = graded_rows(height, first_row * width / columns, growth)
         return cls(width, height, columns, rows, plane, dilatation)
 
@@ -138,6 +155,15 @@ def graded_rows(height: float, first: float, growth: float) -> Real:
     """Return y of the rows of nodes, mm: heights grow by one ratio, as near to ``growth`` as fits.
 
     The first row is ``first`` high, or less in a block so flat that it would leave fewer rows than ``fewest_rows``.
+
+    Parameters
+    ----------
+    height : float
+        mm.
+    first : float
+        Height of the row at the road, mm.
+    growth : float
+        Ratio of the heights of neighbouring rows, above 1.
     """
     fewest = fewest_rows(growth)
     first = min(first, height / fewest)

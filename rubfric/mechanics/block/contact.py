@@ -12,7 +12,7 @@ fallback finds it after finitely many steps. Nothing is penalised.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -23,6 +23,10 @@ from rubfric.errors import NotConverged
 MOST_STEPS = 500
 # Block pivots in a row that may fail to reduce the violations before single pivots take over.
 _PATIENCE = 10
+# Ratio of one load to the one before where they fall step by step, and the one next to 1 at which to give up; pivoting
+# steps at one of them, and in all.
+_FIRST_FACTOR, _LAST_FACTOR = 0.7, 0.999999
+_STEPS_ON_THE_WAY, _MOST_STEPS_ALONG = 60, 10_000
 # Nodes in contact that one dense system may have: 300 MB.
 _MOST_NODES = 6000
 # Violations below this share of the height scale, or of the pressure scale, are round-off.
@@ -104,16 +108,21 @@ def full_contact(compliance: Complex, profile: Real, nominal: float) -> Contact 
     nominal : float
         Nominal pressure, MPa.
     """
+    pressure = nominal + _filling(compliance, profile)
+    if pressure.min() < 0.0:
+        return None
+    return Contact(pressure, np.zeros_like(profile), float(np.fft.rfft(profile)[0].real) / len(profile), 0)
+
+
+def _filling(compliance: Complex, profile: Real) -> Real:
+    """Return the pressure less its mean that holds the surface on the whole profile, shape (n,), MPa."""
     spectrum = np.fft.rfft(profile)
     held = np.zeros_like(spectrum)
     # Harmonics that the road lacks need no pressure; their round-off would be amplified.
     present = np.abs(spectrum) > 1e-13 * max(float(np.abs(spectrum).max()), 1e-300)
     present[0] = False
     held[present] = spectrum[present] / compliance[present]
-    pressure = nominal + np.fft.irfft(held, len(profile))
-    if pressure.min() < 0.0:
-        return None
-    return Contact(pressure, np.zeros_like(profile), float(spectrum[0].real) / len(profile), 0)
+    return np.fft.irfft(held, len(profile))
 
 
 def solve_contact(
@@ -123,8 +132,48 @@ def solve_contact(
     start: Flags,
     label: str = "contact",
 ) -> Contact:
-    """Solve the complementarity problem of a circulant C, as ``pivot`` does; arguments as in ``full_contact``."""
-    return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label, MOST_STEPS)
+    """Solve the complementarity problem of a circulant C, as ``pivot`` does; along falling loads where that cycles.
+
+    As the load falls from where it fills the road, the contact loses and gains few nodes at a time.
+
+    Parameters
+    ----------
+    compliance : ndarray of complex, shape (n // 2 + 1,)
+        Spectrum of C, mm/MPa; its entry 0 is not used.
+    profile : ndarray, shape (n,)
+        s, mm.
+    nominal : float
+        Nominal pressure, MPa.
+    start : ndarray of bool, shape (n,)
+        First guess, not empty; rather too large than too small.
+    label : str
+        Name that an error carries.
+
+    Raises
+    ------
+    NotConverged
+        As ``pivot`` does.
+    """
+    surface = Convolution(compliance, len(profile))
+    try:
+        return pivot(surface, profile, nominal, start, label, MOST_STEPS)
+    except NotConverged as error:
+        if error.step < MOST_STEPS:
+            raise
+    load = -float(_filling(compliance, profile).min())
+    touching, factor, steps = np.ones_like(start), _FIRST_FACTOR, MOST_STEPS
+    while True:
+        ahead = max(nominal, load * factor)
+        try:
+            found = pivot(surface, profile, ahead, touching, label, min(_STEPS_ON_THE_WAY, MOST_STEPS))
+        except NotConverged:
+            if factor > _LAST_FACTOR or steps > _MOST_STEPS_ALONG:
+                raise
+            factor, steps = factor**0.5, steps + _STEPS_ON_THE_WAY
+            continue
+        load, touching, factor, steps = ahead, found.touching, factor**1.5, steps + found.iterations
+        if load == nominal:
+            return replace(found, iterations=steps)
 
 
 def pivot(
@@ -195,7 +244,7 @@ def pivot(
 def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
     """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
     count = len(inside)
-    # The load stands in the system: where all nodes touch, pressures alone would be unknown by a constant.
+    # The load is an equation of the system: where all nodes touch, pressures alone would be unknown by a constant.
     system = np.zeros((count + 1, count + 1))
     system[:count, :count] = surface.matrix(inside)
     unit = float(np.abs(system.diagonal()).max())

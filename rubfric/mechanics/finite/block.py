@@ -1,7 +1,7 @@
 """The block in finite strain: forces and stiffness on the mesh, in steady sliding or at the end of a step of time.
 
 In steady sliding every field is f(xi, Y) with xi = X + v t in the frame of the road, and material lines Y = const are
-straight in the reference configuration. The past of a point is therefore the row of points upstream of it, and the
+straight in the reference configuration. The history of a point is therefore the row of points upstream of it, and the
 branch tensors of all branches together are one periodic convolution along the row: harmonic n sees the frequency
 n k v. In a step of time they are a number times the state sought, and what is left of the state before.
 
@@ -21,7 +21,7 @@ import numpy as np
 from rubfric.arrays import Complex, Real
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.law import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
-from rubfric.mechanics.finite.memory import Past, SteadyPast, convolve
+from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
 
@@ -45,7 +45,13 @@ class Fields:
     volume: Real
 
     def moved(self, step: Fields, share: float = 1.0) -> Fields:
-        """Return these fields plus a share of a step."""
+        """Return these fields plus a share of a step.
+
+        Parameters
+        ----------
+        step : Fields
+        share : float
+        """
         return Fields(
             self.displacement + share * step.displacement,
             self.log_thickness + share * step.log_thickness,
@@ -87,7 +93,7 @@ class Stiffness:
 
 
 class FiniteBlock:
-    """A meshed block of one rubber at one sliding speed; sliding steadily unless another past is given to it.
+    """A meshed block of one rubber at one sliding speed; sliding steadily unless ``with_history`` says otherwise.
 
     Plane stress integrates dilatation pointwise; plane strain by its mean over each cell, where the pointwise form
     would lock.
@@ -114,23 +120,23 @@ class FiniteBlock:
         weighed = gradients * self.quadrature.weights[:, :, None, None]
         self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
         self.frequencies = block.wavenumbers * velocity
-        self.past: Past = SteadyPast(material, self.frequencies)
+        self.history: BranchHistory = SteadyHistory(material, self.frequencies)
 
-    def remembering(self, past: Past) -> FiniteBlock:
-        """Return the same block with another past."""
+    def with_history(self, history: BranchHistory) -> FiniteBlock:
+        """Return the same block with other branches' answers to a state."""
         other = copy.copy(self)
-        other.past = past
+        other.history = history
         return other
 
     @property
     def shear_kernel(self) -> Complex:
-        """What the past adds to the long-term shear modulus of the harmonics, MPa, shape (n,)."""
-        return self.past.shear_kernel
+        """What the branches add to the long-term shear modulus of the harmonics, MPa, shape (n,)."""
+        return self.history.shear_kernel
 
     @property
     def bulk_kernel(self) -> Complex:
-        """What the past adds to the long-term bulk modulus of the harmonics, MPa, shape (n,)."""
-        return self.past.bulk_kernel
+        """What the branches add to the long-term bulk modulus of the harmonics, MPa, shape (n,)."""
+        return self.history.bulk_kernel
 
     @property
     def unknowns(self) -> int:
@@ -195,34 +201,54 @@ class FiniteBlock:
         gradient[0] += 1.0
         gradient[3] += 1.0
         state = deform(gradient, fields.log_thickness)
-        driving = self.past.remembered_driving - self.past.shear(state.inverse)
+        driving = self.history.known_driving - self.history.shear(state.inverse)
         driving[[0, 1, 3]] += self.material.long_term_shear_modulus
         volumetric, _ = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
-        if self.past.bulk_relaxes:
-            volumetric = volumetric + self.past.bulk(fields.volume) + self.past.remembered_pressure
+        if self.history.bulk_relaxes:
+            volumetric = volumetric + self.history.bulk(fields.volume) + self.history.known_pressure
         excess = fields.volume - self.dilatation(state.volume)
         return Stressed(state, driving, volumetric, stress(state, driving, volumetric), excess)
 
     def stiffness(self, fields: Fields, state: Stressed) -> Stiffness:
-        """Return the tangent at the points of a state."""
+        """Return the tangent at the points of a state.
+
+        Parameters
+        ----------
+        fields : Fields
+        state : Stressed
+            Of these fields.
+        """
         _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
         return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
 
     def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
-        """Return the change of the stresses, MPa, and of the volume's excess under a small step."""
+        """Return the change of the stresses, MPa, and of the volume's excess under a small step.
+
+        Parameters
+        ----------
+        stiffness : Stiffness
+        step : Fields
+        """
         points = stiffness.points
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
-        driving = -self.past.shear(_apply(points.inverse, change))
+        driving = -self.history.shear(_apply(points.inverse, change))
         volumetric = stiffness.curvature * step.volume
-        if self.past.bulk_relaxes:
-            volumetric = volumetric + self.past.bulk(step.volume)
+        if self.history.bulk_relaxes:
+            volumetric = volumetric + self.history.bulk(step.volume)
         answer = _apply(points.local, change)
         answer += _apply(points.by_driving, driving)
         answer += points.volume * volumetric
         return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
 
     def stress_power(self, fields: Fields, state: Stressed) -> Real:
-        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns)."""
+        """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns).
+
+        Parameters
+        ----------
+        fields : Fields
+        state : Stressed
+            Of these fields.
+        """
         unknowns = np.concatenate((state.deformation.gradient, fields.log_thickness))
         rate: Complex = 1j * self.frequencies.astype(complex)
         rate[-1] = 0.0  # the phase of the last harmonic is unknown
@@ -234,7 +260,14 @@ class FiniteBlock:
         return volume if self.block.pointwise else volume.mean(axis=0, keepdims=True)
 
     def convolve(self, kernel: Complex, field: Real) -> Real:
-        """Return the convolution along the road of a field with a kernel given by its harmonics."""
+        """Return the convolution along the road of a field with a kernel given by its harmonics.
+
+        Parameters
+        ----------
+        kernel : ndarray of complex, shape (n,)
+            For the harmonics 0 to columns / 2.
+        field : ndarray, shape (..., columns)
+        """
         return convolve(kernel, field)
 
 

@@ -46,6 +46,20 @@ class RightSide:
 class Circulant:
     """A factorised block-circulant stiffness.
 
+    For every harmonic the change of the displacement gradient h, of the logarithm of the thickness t (plane stress
+    only) and of the volume ratio J at the points obeys, with averaged moduli A, v = dJ / d(h, t) and B = U'' + B_n,
+
+        P = A_hh h + A_ht t + v_h B J,    T = A_th h + A_tt t + v_t B J,    e = J - <v_h h + v_t t>,
+
+    where <> is the mean over a cell where the volume ratio is that of the cell. T and e are loads; P is in balance with
+    the forces at the nodes. Thickness, and then volume, are condensed:
+
+        t = (T - A_th h - v_t B J) / A_tt,
+        J = (e + <v_t T / A_tt> + <(v_h - v_t A_th / A_tt) h>) / s,    s = 1 + B <v_t^2 / A_tt>,
+        P = (A_hh - A_ht A_th / A_tt) h + A_ht T / A_tt + (v_h - A_ht v_t / A_tt) B J.
+
+    What remains is one banded system in the nodes of a column for each harmonic.
+
     Parameters
     ----------
     finite : FiniteBlock
@@ -73,71 +87,98 @@ class Circulant:
         volume = stiffness.points.volume.mean(axis=-1)[..., None]
         bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
         moduli = _moduli(finite, stiffness)
-        pressed, swollen = volume, volume
-        self._stiffening: Complex | float = 1.0
+        stress_by_pressure, volume_by_gradient = volume, volume
+        self._volume_stiffness: Complex | float = 1.0  # s
         if finite.unknowns == 5:
-            # At constant volume every point finds its thickness alone; volume then follows from both.
-            self._yield = 1.0 / moduli[4, 4]
-            give, take = moduli[:4, 4] * self._yield, moduli[4, :4] * self._yield
-            self._thickness, self._thickness_force = _caused(take, slope), _caused(give, weighed)
-            self._swelling, self._volume_thickness = volume[4] * bulk * self._yield, volume[4] * self._yield
-            self._stiffening = 1.0 + bulk * self._felt((volume[4] * self._volume_thickness)[None])[0]
-            pressed, swollen = volume[:4] - give * volume[4], volume[:4] - take * volume[4]
-            moduli = moduli[:4, :4] - give[:, None] * moduli[4, :4]
-        # The volume ratio that displacements cause, and the forces of a volume ratio that they do not.
-        self._dilatation = self._felt(_caused(swollen, slope)) / self._stiffening
-        self._volume_force = _caused(pressed, weighed)
+            self._thickness_compliance = 1.0 / moduli[4, 4]
+            column, row = moduli[:4, 4] * self._thickness_compliance, moduli[4, :4] * self._thickness_compliance
+            self._thickness_of_displacement, self._force_of_thickness = _caused(row, slope), _caused(column, weighed)
+            self._volume_of_thickness = volume[4] * self._thickness_compliance
+            self._thickness_of_volume = self._volume_of_thickness * bulk
+            self._volume_stiffness = 1.0 + bulk * self._cell_mean((volume[4] * self._volume_of_thickness)[None])[0]
+            stress_by_pressure = volume[:4] - column * volume[4]
+            volume_by_gradient = volume[:4] - row * volume[4]
+            moduli = moduli[:4, :4] - column[:, None] * moduli[4, :4]
+        self._volume_of_displacement = self._cell_mean(_caused(volume_by_gradient, slope)) / self._volume_stiffness
+        self._force_of_volume = _caused(stress_by_pressure, weighed)
         if not finite.block.pointwise:
-            self._volume_force = self._volume_force.sum(axis=1, keepdims=True)
-        self._volume_force = self._volume_force * bulk
-        cells = _cells(moduli, slope, weighed) + (self._dilatation * self._volume_force[:, None]).sum(axis=2)
+            self._force_of_volume = self._force_of_volume.sum(axis=1, keepdims=True)
+        self._force_of_volume = self._force_of_volume * bulk
+        cells = _cells(moduli, slope, weighed)
+        cells += (self._volume_of_displacement * self._force_of_volume[:, None]).sum(axis=2)
         self._factors, self._pivots = self._factorise(cells, pressure)
-        self._surface = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
+        self._surface_response = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
         self.compliance[..., -1] = self.compliance[..., -1].real
-        if not finite.past.anchored:
-            self.compliance[..., 0] = self._surface[:, 0] = 0.0
+        if not finite.history.anchored:
+            self.compliance[..., 0] = self._surface_response[:, 0] = 0.0
 
     def right_side(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> RightSide:
-        """Return the load of nodal forces, N per mm, of stresses C_zz S_zz, MPa, and of an excess of volume."""
+        """Return the right-hand side for loads on nodes and points, thickness and volume condensed.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (2, rows + 1, columns)
+            N per mm of thickness.
+        thickness_stress : ndarray, shape (1 or 0, points, rows, columns)
+            T, change of C_zz S_zz, MPa.
+        volume_excess : ndarray, shape (points or 1, rows, columns)
+            e, dimensionless.
+        """
         force = fft.rfft(forces, axis=-1)
         thickness = fft.rfft(thickness_stress, axis=-1)
         volume = fft.rfft(volume_excess, axis=-1)
         if len(thickness):
-            volume = (volume + self._felt(self._volume_thickness * thickness)[0]) / self._stiffening
-        pushed = (self._volume_force * volume).sum(axis=1)  # (level and component, row, harmonic)
+            volume = (volume + self._cell_mean(self._volume_of_thickness * thickness)[0]) / self._volume_stiffness
+        pushed = (self._force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
-            pushed += (self._thickness_force * thickness[0]).sum(axis=1)
-            thickness = self._yield * thickness - self._swelling * volume
+            pushed += (self._force_of_thickness * thickness[0]).sum(axis=1)
+            thickness = self._thickness_compliance * thickness - self._thickness_of_volume * volume
         force[:, :-1] -= pushed[:2]
         force[:, 1:] -= pushed[2:]
         return RightSide(force, thickness, volume)
 
     def surface(self, right: RightSide) -> Real:
-        """Return u_x and u_y at the surface, mm, shape (2, columns), without the means that are held."""
+        """Return u_x and u_y at the surface under a load, without the means that are held.
+
+        By reciprocity: the surface rows of the inverse are the answers of the transposed system to unit forces there.
+
+        Returns
+        -------
+        ndarray, shape (2, columns)
+            mm.
+        """
         force = np.where(self._held(), 0.0, right.force.transpose(2, 1, 0).reshape(self._harmonics, -1))
-        spectrum = np.einsum("cnj,nj->cn", self._surface.reshape(2, self._harmonics, -1), force)
+        spectrum = np.einsum("cnj,nj->cn", self._surface_response.reshape(2, self._harmonics, -1), force)
         answer: Real = fft.irfft(spectrum, self._finite.block.columns, axis=-1)
         return answer
 
     def solve(self, right: RightSide, contact: Real) -> Fields:
-        """Return the fields under a load and nodal forces at the surface, N per mm, shape (2, columns)."""
+        """Return the fields under a load and contact forces.
+
+        Parameters
+        ----------
+        right : RightSide
+        contact : ndarray, shape (2, columns)
+            Forces on the surface nodes, N per mm of thickness.
+        """
         force = right.force.copy()
         force[:, 0] += fft.rfft(contact, axis=-1)
         ordered = np.where(self._held(), 0.0, force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = self._solve(ordered).transpose(2, 1, 0)
-        if not self._finite.past.anchored:
+        if not self._finite.history.anchored:
             spectrum[0, :, 0] -= spectrum[0, 0, 0]
         corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
-        dilatation = (self._dilatation * corners).sum(axis=0)
+        dilatation = (self._volume_of_displacement * corners).sum(axis=0)
         volume, thickness = right.volume + dilatation, right.thickness
         if len(thickness):
-            thickness = thickness - (self._thickness * corners).sum(axis=0) - self._swelling * dilatation
+            thickness = thickness - (self._thickness_of_displacement * corners).sum(axis=0)
+            thickness -= self._thickness_of_volume * dilatation
         columns = self._finite.block.columns
         return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
 
-    def _felt(self, points: Complex) -> Complex:
-        """Return what the volume of a cell feels of its points, which stand along the second axis."""
+    def _cell_mean(self, points: Complex) -> Complex:
+        """Return <x>: the points along the second axis, or their mean where the volume is that of the cell."""
         return points if self._finite.block.pointwise else points.mean(axis=1, keepdims=True)
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
@@ -145,7 +186,8 @@ class Circulant:
         answer, info = lapack.zgbtrs(
             self._factors, _BAND, _BAND, right.reshape(-1), self._pivots, trans=1 if transposed else 0
         )
-        assert info == 0
+        if info:
+            raise ValueError(f"zgbtrs: argument {-info} has an illegal value")
         return np.asarray(answer).reshape(self._harmonics, -1, 2)
 
     def _unit(self, component: int, transposed: bool = False) -> Complex:
@@ -185,11 +227,22 @@ class Circulant:
 
 
 def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
-    """Return the averaged moduli of all harmonics at constant volume, MPa, (m, m, points, rows, n)."""
+    """Return A_n = <local> - H_n <dS/dQ> <dCb^-1/d(unknowns)>, the averaged moduli at constant volume.
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    stiffness : Stiffness
+
+    Returns
+    -------
+    ndarray of complex, shape (m, m, points, rows, n)
+        MPa.
+    """
     points = stiffness.points
-    local, give, take = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
-    past = np.einsum("ijpr,jkpr->ikpr", give, take)
-    moduli: Complex = past[..., None] * -finite.shear_kernel
+    local, by_driving, inverse = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
+    relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
+    moduli: Complex = relaxing[..., None] * -finite.shear_kernel
     moduli += local[..., None]
     return moduli
 

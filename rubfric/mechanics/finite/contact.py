@@ -136,6 +136,15 @@ class SlidingContact:
     def correct(self, circulant: Circulant, fields: Fields, load: Load, touching: Flags) -> Correction:
         """Return T(u) - u and the contact that goes with it.
 
+        Parameters
+        ----------
+        circulant : Circulant
+            The averaged tangent.
+        fields : Fields
+        load : Load
+        touching : ndarray of bool, shape (columns,)
+            First guess of the contact nodes.
+
         Raises
         ------
         rubfric.mechanics.finite.law.Inverted

@@ -39,7 +39,7 @@ class Start:
     touching: Flags
 
 
-class History:
+class AttemptLog:
     """What was tried, in order: one line each."""
 
     def __init__(self) -> None:
@@ -56,25 +56,45 @@ class History:
         self.work += applications * (block.columns * block.rows + _PER_APPLICATION)
 
     def solved(self, problem: SlidingContact, what: str, solved: Solved) -> None:
-        """Record a success."""
+        """Record a success.
+
+        Parameters
+        ----------
+        problem : SlidingContact
+        what : str
+            Name of the attempt in the log.
+        solved : Solved
+        """
         self._count(problem, solved.steps, solved.krylov)
         self.lines.append(f"{what}: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
 
     def left(self, problem: SlidingContact, what: str, stalled: Stalled) -> None:
-        """Record a failure."""
+        """Record a failure.
+
+        Parameters
+        ----------
+        problem : SlidingContact
+        what : str
+            Name of the attempt in the log.
+        stalled : Stalled
+        """
         self._count(problem, stalled.steps, stalled.krylov)
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
 
-def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, history: History) -> Solved:
+def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, log: AttemptLog) -> Solved:
     """Solve the contact from a block pressed on a flat road.
 
     Parameters
     ----------
+    problem : SlidingContact
     flat : Start
         The solution on a flat road.
+    load : Load
     tolerance : float
         As for ``newton``.
+    log : AttemptLog
+        Gets a line for every attempt.
 
     Raises
     ------
@@ -83,37 +103,49 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, hi
     """
     columns = problem.finite.block.columns
     try:
-        return attempt(problem, flat, load, tolerance, history, f"{columns} columns, at once")
+        return attempt(problem, flat, load, tolerance, log, f"{columns} columns, at once")
     except Stalled:
         pass
     rise = f"{columns} columns, road at "
     try:
-        return _follow(problem, flat, lambda share: replace(load, share=share), tolerance, history, rise)
+        return _follow(problem, flat, lambda share: replace(load, share=share), tolerance, log, rise)
     except Stalled:
         pass
     light = replace(load, pressure=_LIGHT * load.pressure)
     try:
-        first = _follow(problem, flat, lambda share: replace(light, share=share), _ON_THE_WAY, history, rise)
+        first = _follow(problem, flat, lambda share: replace(light, share=share), _ON_THE_WAY, log, rise)
         return _follow(
             problem,
             Start(first.fields, first.correction.contact.touching),
             lambda share: replace(load, pressure=(_LIGHT + share * (1.0 - _LIGHT)) * load.pressure),
             tolerance,
-            history,
+            log,
             f"{columns} columns, load at ",
         )
     except Stalled as stalled:
         raise NotConverged(
             problem.label,
-            history.steps,
+            log.steps,
             stalled.residual,
             "distance from balance and contact, over the road's amplitude,",
             "every way to a solution stalls: the road may be too steep, or the load too heavy, for the rubber",
         ) from stalled
 
 
-def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float, history: History, what: str) -> Solved:
+def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float, log: AttemptLog, what: str) -> Solved:
     """Run Newton's method once and record how it went.
+
+    Parameters
+    ----------
+    problem : SlidingContact
+    start : Start
+    load : Load
+    tolerance : float
+        As for ``newton``.
+    log : AttemptLog
+        Gets a line for every attempt.
+    what : str
+        Name of the attempt in the log.
 
     Raises
     ------
@@ -125,12 +157,12 @@ def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float,
     try:
         solved = newton(problem, start.fields, load, start.touching, tolerance)
     except Stalled as stalled:
-        history.left(problem, what, stalled)
-        if history.work > _MOST_WORK:
+        log.left(problem, what, stalled)
+        if log.work > _MOST_WORK:
             measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
-            raise NotConverged(problem.label, history.steps, stalled.residual, measure, _SPENT) from stalled
+            raise NotConverged(problem.label, log.steps, stalled.residual, measure, _SPENT) from stalled
         raise
-    history.solved(problem, what, solved)
+    log.solved(problem, what, solved)
     return solved
 
 
@@ -139,7 +171,7 @@ def _follow(
     start: Start,
     loads: Callable[[float], Load],
     tolerance: float,
-    history: History,
+    log: AttemptLog,
     what: str,
 ) -> Solved:
     """Follow loads(share) from share 0, where ``start`` solves it, to 1; Stalled where steps become too short."""
@@ -155,7 +187,7 @@ def _follow(
                 Start(guess, here.touching),
                 loads(ahead),
                 tolerance if last else _ON_THE_WAY,
-                history,
+                log,
                 f"{what}{ahead:.4g}",
             )
         except Stalled:

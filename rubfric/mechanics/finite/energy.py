@@ -15,7 +15,8 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.mechanics.finite.block import FiniteBlock
-from rubfric.mechanics.finite.law import Deformation, elongation, excess, trace, volumetric_energy
+from rubfric.mechanics.finite.branch_energy import elongation, excess, trace
+from rubfric.mechanics.finite.law import Deformation, volumetric_energy
 from rubfric.mechanics.finite.memory import branch_transfers
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.mechanics.steady.energies import Energies, output_stride, rows_to_nodes
@@ -40,7 +41,14 @@ def evaluate_finite(solution: FiniteSolution) -> Energies:
 
 
 def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real, Real]:
-    """Return the dissipation D, MPa/s, and the stored energy W, MPa, at the points, each (points, rows, columns)."""
+    """Return the dissipation D, MPa/s, and the stored energy W, MPa, at the points, each (points, rows, columns).
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    state : Deformation
+        Of its points.
+    """
     material = finite.material
     squared, inverse = state.isochoric_squared, state.inverse
     volume = np.broadcast_to(finite.dilatation(state.volume), state.volume.shape)
@@ -67,7 +75,14 @@ def dissipated_and_stored(finite: FiniteBlock, state: Deformation) -> tuple[Real
 
 
 def branch_tensors(finite: FiniteBlock, state: Deformation) -> Real:
-    """Return A_i, shape (branches, 4, points, rows, columns)."""
+    """Return A_i, shape (branches, 4, points, rows, columns).
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    state : Deformation
+        Of its points.
+    """
     return np.stack(
         [
             state.inverse - finite.convolve(transfer, state.inverse)
@@ -77,7 +92,14 @@ def branch_tensors(finite: FiniteBlock, state: Deformation) -> Real:
 
 
 def nodal_density(finite: FiniteBlock, density: Real) -> Real:
-    """Average a density from the quadrature points to the nodes by area, shape (rows + 1, columns)."""
+    """Average a density from the quadrature points to the nodes by area, shape (rows + 1, columns).
+
+    Parameters
+    ----------
+    finite : FiniteBlock
+    density : ndarray, shape (points, rows, columns)
+        MPa.
+    """
     shapes, weights = finite.quadrature.shapes, finite.weights
     total = np.zeros((finite.block.rows + 1, finite.block.columns))
     area = np.zeros((finite.block.rows + 1, 1))

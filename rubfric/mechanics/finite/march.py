@@ -19,9 +19,9 @@ from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stressed
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
-from rubfric.mechanics.finite.continuation import History, Start, reach
+from rubfric.mechanics.finite.continuation import AttemptLog, Start, reach
 from rubfric.mechanics.finite.law import Inverted
-from rubfric.mechanics.finite.memory import StepPast, branch_transfers, convolve
+from rubfric.mechanics.finite.memory import StepHistory, branch_transfers, convolve
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
 from rubfric.mechanics.finite.state import Branches, FiniteState
 from rubfric.mechanics.finite.steady import FiniteSolution
@@ -87,10 +87,10 @@ class FiniteStepper:
         ------
         NotConverged
         """
-        still = StepPast(0.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, len(self.block.harmonics))
-        problem = SlidingContact(self.finite.remembering(still), self._scale, self.scene.name)
+        still = StepHistory(0.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, len(self.block.harmonics))
+        problem = SlidingContact(self.finite.with_history(still), self._scale, self.scene.name)
         flat = Start(self.finite.pressed(pressure), np.ones(self.block.columns, dtype=bool))
-        solved = reach(problem, flat, Load(self.scene.road, pressure), self._tolerance, History())
+        solved = reach(problem, flat, Load(self.scene.road, pressure), self._tolerance, AttemptLog())
         force = self._force(solved.correction)
         self.state = self._relaxed(solved.fields, solved.correction.contact.touching, force, pressure)
 
@@ -99,19 +99,19 @@ class FiniteStepper:
         fields, correction = solution.fields, solution.correction
         inverse = correction.state.deformation.inverse
         frequencies = self.block.wavenumbers * self.scene.velocity
-        behind, swollen = self._branches.none(fields, inverse)
+        behind, volume_behind = self._branches.none(fields, inverse)
         for branch, transfer in enumerate(branch_transfers(self.scene.material, frequencies)):
             behind[:, branch] = -convolve(transfer, inverse)
-            if len(swollen):
-                swollen[branch] = convolve(transfer, fields.volume)
-        # The top stands still where it was made: the road is moved instead.
+            if len(volume_behind):
+                volume_behind[branch] = convolve(transfer, fields.volume)
+        # The top is held where it was made: the road is moved instead.
         offset = float(fields.displacement[0, -1].mean())
         displacement = fields.displacement.copy()
         displacement[0] -= offset
         held = Fields(displacement, fields.log_thickness, fields.volume)
         touching = correction.contact.touching
         self.state = self._unmoved(
-            held, inverse, behind, swollen, touching, self._force(correction), offset, self.scene.pressure
+            held, inverse, behind, volume_behind, touching, self._force(correction), offset, self.scene.pressure
         )
 
     def _relaxed(self, fields: Fields, touching: Flags, force: Real, pressure: float) -> FiniteState:
@@ -123,7 +123,7 @@ class FiniteStepper:
         fields: Fields,
         inverse: Real,
         behind: Real,
-        swollen: Real,
+        volume_behind: Real,
         touching: Flags,
         force: Real,
         offset: float,
@@ -139,18 +139,27 @@ class FiniteStepper:
             inverse_change=np.zeros_like(inverse),
             volume_change=np.zeros_like(fields.volume),
             behind=behind,
-            volume_behind=swollen,
+            volume_behind=volume_behind,
             touching=touching,
             force=force,
             duration=math.inf,
             advance=0.0,
             offset=offset,
             pressure=pressure,
-            stored=self._branches.stored(squared, inverse, fields.volume, behind, swollen),
+            stored=self._branches.stored(squared, inverse, fields.volume, behind, volume_behind),
         )
 
     def advance(self, duration: float, offset: float, pressure: float) -> Outcome:
         """Go one step: the road to an offset, mm, and the load to a pressure, MPa, in a duration, s.
+
+        Parameters
+        ----------
+        duration : float
+            s.
+        offset : float
+            How far the road has gone past at the end, mm.
+        pressure : float
+            Nominal, at the end, MPa.
 
         Raises
         ------
@@ -159,7 +168,7 @@ class FiniteStepper:
         """
         lengths = (duration, self.state.duration)
         relaxation = Relaxation(duration, self._branches.times, self.state.duration)
-        finite = self.finite.remembering(self._branches.past(self.state, relaxation))
+        finite = self.finite.with_history(self._branches.history(self.state, relaxation))
         problem = SlidingContact(finite, self._scale, self.scene.name)
         kept = self._circulant[1] if self._circulant is not None and self._circulant[0] == lengths else None
         load = Load(self.scene.road, pressure, offset)
@@ -206,7 +215,7 @@ class FiniteStepper:
         old, fields, contact = self.state, solved.fields, solved.correction.contact
         stressed: Stressed = solved.correction.state
         inverse, squared = stressed.deformation.inverse, stressed.deformation.isochoric_squared
-        behind, swollen = self._branches.follow(old, relaxation, inverse, fields.volume)
+        behind, volume_behind = self._branches.follow(old, relaxation, inverse, fields.volume)
         new = FiniteState(
             fields=fields,
             before=old.fields,
@@ -214,14 +223,14 @@ class FiniteStepper:
             inverse_change=inverse - old.inverse,
             volume_change=fields.volume - old.fields.volume,
             behind=behind,
-            volume_behind=swollen,
+            volume_behind=volume_behind,
             touching=contact.touching,
             force=self._force(solved.correction),
             duration=relaxation.duration,
             advance=load.offset - old.offset,
             offset=load.offset,
             pressure=load.pressure,
-            stored=self._branches.stored(squared, inverse, fields.volume, behind, swollen),
+            stored=self._branches.stored(squared, inverse, fields.volume, behind, volume_behind),
         )
         moved = fields.displacement - old.fields.displacement
         lost = self._branches.dissipated(old, relaxation, inverse, fields.volume)

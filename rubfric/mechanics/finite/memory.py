@@ -1,6 +1,6 @@
-"""What the rubber remembers, as the solver of one deformed state sees it: linear in that state, plus what is known.
+"""The branches as the solver of one deformed state sees them: linear in that state, plus what is known.
 
-The branches add -H[Cb^-1] + M to the driving tensor and B[J] + N to the volumetric stress. In steady sliding the past
+They add -H[Cb^-1] + M to the driving tensor Q and B[J] + N to the volumetric stress U'. In steady sliding the history
 is the row of points upstream: H and B are periodic convolutions along the road, and nothing is known. In a step of
 time they are numbers, and M and N what is left of the state before.
 """
@@ -16,7 +16,7 @@ from rubfric.arrays import Complex, Real
 from rubfric.rubber.material import Material
 
 
-class Past(Protocol):
+class BranchHistory(Protocol):
     """How the branches answer to a state.
 
     Attributes
@@ -35,12 +35,12 @@ class Past(Protocol):
     anchored: bool
 
     @property
-    def remembered_driving(self) -> Real | float:
+    def known_driving(self) -> Real | float:
         """M, MPa, shape (4, points, rows, columns) or a number."""
         ...
 
     @property
-    def remembered_pressure(self) -> Real | float:
+    def known_pressure(self) -> Real | float:
         """N, MPa, in the shape of ``Fields.volume`` or a number."""
         ...
 
@@ -53,8 +53,10 @@ class Past(Protocol):
         ...
 
 
-class SteadyPast:
-    """The past of a block that slides steadily.
+class SteadyHistory:
+    """The history of a block that slides steadily: H and B are convolutions, M and N vanish.
+
+    Harmonic n sees H_n = G*(n k v) - G_inf and B_n = K*(n k v) - K_inf.
 
     Parameters
     ----------
@@ -63,8 +65,8 @@ class SteadyPast:
         n k v, rad/s, of the harmonics 0 to columns / 2.
     """
 
-    remembered_driving: Real | float = 0.0
-    remembered_pressure: Real | float = 0.0
+    known_driving: Real | float = 0.0
+    known_pressure: Real | float = 0.0
     anchored = False
 
     def __init__(self, material: Material, frequencies: Real) -> None:
@@ -81,16 +83,16 @@ class SteadyPast:
         return convolve(self.bulk_kernel, field)
 
 
-class StepPast:
-    """The past of a block at the end of a step of time.
+class StepHistory:
+    """The history of a block at the end of a step of time: H and B are numbers.
 
     Parameters
     ----------
     shear, bulk : float
         H and B, MPa.
-    remembered_driving : ndarray, shape (4, points, rows, columns)
+    known_driving : ndarray, shape (4, points, rows, columns)
         M, MPa.
-    remembered_pressure : ndarray, shape of ``Fields.volume``, or float
+    known_pressure : ndarray, shape of ``Fields.volume``, or float
         N, MPa; a float where the bulk does not relax.
     harmonics : int
         n.
@@ -99,12 +101,12 @@ class StepPast:
     anchored = True
 
     def __init__(
-        self, shear: float, bulk: float, remembered_driving: Real, remembered_pressure: Real | float, harmonics: int
+        self, shear: float, bulk: float, known_driving: Real, known_pressure: Real | float, harmonics: int
     ) -> None:
         self._shear, self._bulk = shear, bulk
-        self.remembered_driving: Real | float = remembered_driving
-        self.remembered_pressure: Real | float = remembered_pressure
-        self.bulk_relaxes = isinstance(remembered_pressure, np.ndarray)
+        self.known_driving: Real | float = known_driving
+        self.known_pressure: Real | float = known_pressure
+        self.bulk_relaxes = isinstance(known_pressure, np.ndarray)
         self.shear_kernel = np.full(harmonics, shear, dtype=complex)
         self.bulk_kernel = np.full(harmonics, bulk, dtype=complex)
 
@@ -118,7 +120,22 @@ class StepPast:
 
 
 def convolve(kernel: Complex, field: Real) -> Real:
-    """Return the convolution along the road (the last axis) of a field with a kernel given by its harmonics."""
+    """Return the periodic convolution along the road of a field with a kernel given by its harmonics.
+
+    g_n = k_n f_n for the harmonics n = 0 ... columns / 2 of f and g.
+
+    Parameters
+    ----------
+    kernel : ndarray of complex, shape (n,)
+        k_n, of any unit; its first and last entries real.
+    field : ndarray, shape (..., columns)
+        f.
+
+    Returns
+    -------
+    ndarray, shape (..., columns)
+        g.
+    """
     spectrum = fft.rfft(field, axis=-1)
     spectrum *= kernel
     answer: Real = fft.irfft(spectrum, field.shape[-1], axis=-1, overwrite_x=True)
@@ -126,7 +143,18 @@ def convolve(kernel: Complex, field: Real) -> Real:
 
 
 def branch_transfers(material: Material, frequencies: Real) -> Complex:
-    """Return i w tau / (1 + i w tau), shape (branches, n), for ``convolve``; the last harmonic is its own conjugate."""
+    """Return i w tau / (1 + i w tau) for ``convolve``; the last harmonic is its own conjugate.
+
+    Parameters
+    ----------
+    material : Material
+    frequencies : ndarray, shape (n,)
+        w of the harmonics 0 to columns / 2, rad/s.
+
+    Returns
+    -------
+    ndarray of complex, shape (branches, n)
+    """
     transfers = material.branch_transfer(frequencies)
     transfers[:, -1] = transfers[:, -1].real
     return transfers

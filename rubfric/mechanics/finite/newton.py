@@ -19,7 +19,7 @@ from rubfric.mechanics.finite.contact import Correction, Linearised, Load, Slidi
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
-# A direction that took more Krylov iterations is worth a new average of the tangent, unless told otherwise.
+# A direction that took more Krylov iterations is worth a new average of the tangent, by default.
 _WORTH = 6
 _MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
@@ -85,6 +85,11 @@ def newton(
 
     Parameters
     ----------
+    problem : SlidingContact
+    start : Fields
+    load : Load
+    touching : ndarray of bool, shape (columns,)
+        First guess of the contact nodes.
     tolerance : float
         Size of u - T(u), as ``SlidingContact.size`` measures it, at which to stop.
     circulant : Circulant, optional

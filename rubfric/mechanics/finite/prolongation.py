@@ -9,7 +9,16 @@ from rubfric.mechanics.finite.block import Fields, FiniteBlock
 
 
 def prolong(fields: Fields, old: FiniteBlock, new: FiniteBlock) -> Fields:
-    """Return fields of one mesh on another: by harmonics along the road, linearly over the height."""
+    """Return fields of one mesh on another: by harmonics along the road, linearly over the height.
+
+    Parameters
+    ----------
+    fields : Fields
+    old : FiniteBlock
+        The block of the fields.
+    new : FiniteBlock
+        The same block on another mesh.
+    """
     return Fields(
         _over_height(
             _along_road(fields.displacement, new.block.columns, 0.0), old.block.row_positions, new.block.row_positions

@@ -14,8 +14,9 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
-from rubfric.mechanics.finite.law import Inverted, elongation, excess, inverted, trace, volumetric_energy
-from rubfric.mechanics.finite.memory import StepPast
+from rubfric.mechanics.finite.branch_energy import elongation, excess, inverted, trace
+from rubfric.mechanics.finite.law import Inverted, volumetric_energy
+from rubfric.mechanics.finite.memory import StepHistory
 from rubfric.rubber.maxwell import Relaxation
 
 # Points and weights in a step at which dissipation is taken: Gauss, exact for what varies as a parabola, and beyond.
@@ -103,13 +104,30 @@ class Branches:
         self._bulk_relaxes = bool(self._bulk.any())
 
     def none(self, fields: Fields, inverse: Real) -> tuple[Real, Real]:
-        """Return D_i and J - J_i of a relaxed block."""
+        """Return D_i and J - J_i of a relaxed block.
+
+        Parameters
+        ----------
+        fields : Fields
+        inverse : ndarray, shape (4, points, rows, columns)
+            Cb^-1.
+        """
         branches = len(self.times)
         volume = np.zeros((branches if self._bulk_relaxes else 0, *fields.volume.shape))
         return np.zeros((4, branches, *inverse.shape[1:])), volume
 
-    def past(self, state: FiniteState, relaxation: Relaxation) -> StepPast:
-        """Return what the rubber remembers at the end of a step from a state."""
+    def history(self, state: FiniteState, relaxation: Relaxation) -> StepHistory:
+        """Return H, M, B and N at the end of a step from a state.
+
+        With the factors of ``rubber.maxwell`` D_i is decay D_i0 - share (Cb^-1 - Cb^-1_0) + lag P, P being the change
+        of Cb^-1 in the step before.
+
+        Parameters
+        ----------
+        state : FiniteState
+            At the begin of the step.
+        relaxation : Relaxation
+        """
         shear, lag = float(self._shear @ relaxation.share), float(self._shear @ relaxation.lag)
         driving = np.tensordot(self._shear * relaxation.decay, state.behind, axes=(0, 1))
         driving += shear * state.inverse + lag * state.inverse_change
@@ -119,10 +137,21 @@ class Branches:
             bulk, lag = float(self._bulk @ relaxation.share), float(self._bulk @ relaxation.lag)
             kept = np.tensordot(self._bulk * relaxation.decay, state.volume_behind, axes=1)
             pressure = kept - bulk * state.fields.volume - lag * state.volume_change
-        return StepPast(shear, bulk, driving, pressure, len(self._finite.block.harmonics))
+        return StepHistory(shear, bulk, driving, pressure, len(self._finite.block.harmonics))
 
     def follow(self, state: FiniteState, relaxation: Relaxation, inverse: Real, volume: Real) -> tuple[Real, Real]:
         """Return D_i and J - J_i at the end of a step from a state to some Cb^-1 and J.
+
+        Parameters
+        ----------
+        state : FiniteState
+            At the begin of the step.
+        relaxation : Relaxation
+            Of the step.
+        inverse : ndarray, shape (4, points, rows, columns)
+            Cb^-1 at the end.
+        volume : ndarray, shape of ``Fields.volume``
+            J at the end.
 
         Raises
         ------
@@ -135,13 +164,27 @@ class Branches:
         behind = decay * state.behind - share * (inverse - state.inverse)[:, None] + lag * state.inverse_change[:, None]
         if behind.size:
             _check(inverse[:, None] + behind)
-        swollen = state.volume_behind
+        volume_behind = state.volume_behind
         if self._bulk_relaxes:
-            swollen = decay * swollen + share * (volume - state.fields.volume) - lag * state.volume_change
-        return behind, swollen
+            volume_behind = decay * volume_behind + share * (volume - state.fields.volume) - lag * state.volume_change
+        return behind, volume_behind
 
     def stored(self, squared: Real, inverse: Real, volume: Real, behind: Real, volume_behind: Real) -> float:
-        """Return the energy stored in the block, N mm per mm of thickness, from Cb, Cb^-1, J and the branches."""
+        """Return the energy stored in the block, N mm per mm of thickness, from Cb, Cb^-1, J and the branches.
+
+        Parameters
+        ----------
+        squared : ndarray, shape (4, points, rows, columns)
+            Cb.
+        inverse : ndarray, shape (4, points, rows, columns)
+            Cb^-1.
+        volume : ndarray, shape of ``Fields.volume``
+            J.
+        behind : ndarray, shape (4, branches, points, rows, columns)
+            D_i.
+        volume_behind : ndarray, shape (branches or 0, ...)
+            J - J_i.
+        """
         material = self._finite.material
         density = 0.5 * material.long_term_shear_modulus * (trace(squared) - 3.0)
         each = elongation(behind, squared[:, None], inverse[:, None])
@@ -152,7 +195,19 @@ class Branches:
         return float((density * self._finite.weights).sum())
 
     def dissipated(self, state: FiniteState, relaxation: Relaxation, inverse: Real, volume: Real) -> float:
-        """Return what a step dissipates from a state to some Cb^-1 and J, N mm per mm of thickness."""
+        """Return what a step dissipates from a state to some Cb^-1 and J, N mm per mm of thickness.
+
+        Parameters
+        ----------
+        state : FiniteState
+            At the begin of the step.
+        relaxation : Relaxation
+            Of the step.
+        inverse : ndarray, shape (4, points, rows, columns)
+            Cb^-1 at the end.
+        volume : ndarray, shape of ``Fields.volume``
+            J at the end.
+        """
         if not len(self.times):
             return 0.0
         growth = inverse - state.inverse

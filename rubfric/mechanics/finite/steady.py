@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
-from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
+from rubfric.mechanics.finite.continuation import AttemptLog, Start, attempt, reach
 from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.prolongation import prolong
 from rubfric.mechanics.steady.energies import ROUND_OFF
@@ -71,7 +70,7 @@ class FiniteSolution(SteadySolution):
         """Strain-energy density of the relaxed block on a flat road under the load, MPa."""
         return stored_energy(self.scene.material, *self._pressed)
 
-    @cached_property
+    @property
     def _pressed(self) -> tuple[float, float]:
         return pressed(self.scene.material, self.scene.pressure, self.scene.plane)
 
@@ -80,6 +79,11 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
     """Slide a block steadily over its scale of the road, in finite strain.
 
     The mesh follows from the contact, and is refined as ``rubfric.mechanics.steady.refinement`` says.
+
+    Parameters
+    ----------
+    scene : Scene
+    decision : Decision
 
     Raises
     ------
@@ -98,7 +102,7 @@ class FiniteSolver:
         self.scene = scene
         self.decision = decision
         self._load = Load(scene.road, scene.pressure)
-        self._history = History()
+        self._log = AttemptLog()
         self._before: tuple[FiniteBlock, Solved] | None = None
 
     def first(self) -> Resolution:
@@ -112,7 +116,7 @@ class FiniteSolver:
 
     def solve(self, resolution: Resolution) -> FiniteSolution:
         """Return the solution on a mesh."""
-        scene, tolerance, history = self.scene, self.scene.numerics.tolerance, self._history
+        scene, tolerance, log = self.scene, self.scene.numerics.tolerance, self._log
         block = resolution.block(scene)
         folding = fold_scene(scene, block.wavenumbers[1:])
         finite = FiniteBlock(block, folding.material, scene.velocity)
@@ -121,7 +125,7 @@ class FiniteSolver:
         if solved is None:
             near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
             flat = Start(finite.pressed(scene.pressure), near)
-            solved = reach(problem, flat, self._load, tolerance, history)
+            solved = reach(problem, flat, self._load, tolerance, log)
         self._before = finite, solved
         contact = solved.correction.contact
         wanted = (1.0 - SHORTFALL) * min(scene.numerics.finite_contact_nodes, block.columns)
@@ -132,10 +136,10 @@ class FiniteSolver:
             block=block,
             friction=_friction(scene, finite, solved),
             contact=contact,
-            iterations=history.steps,
-            krylov=history.krylov,
+            iterations=log.steps,
+            krylov=log.krylov,
             resolved=bool(np.count_nonzero(contact.touching) >= wanted),
-            history=tuple(history.lines),
+            history=tuple(log.lines),
             finite=finite,
             fields=solved.fields,
             correction=solved.correction,
@@ -152,7 +156,7 @@ class FiniteSolver:
         )
         what = f"{columns} columns, from {finite.block.columns}"
         try:
-            return attempt(problem, start, self._load, self.scene.numerics.tolerance, self._history, what)
+            return attempt(problem, start, self._load, self.scene.numerics.tolerance, self._log, what)
         except Stalled:
             return None
 

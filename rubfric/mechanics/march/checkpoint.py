@@ -22,6 +22,12 @@ def write(path: Path, label: str, arrays: Mapping[str, Real]) -> None:
     """Write arrays under a label that says what they belong to; the file appears whole or not at all.
 
     It holds a checksum (SHA-256), then an .npz.
+
+    Parameters
+    ----------
+    path : Path
+    label : str
+    arrays : mapping of str to ndarray
     """
     given = {_LABEL: np.asarray(label), **arrays}
     content = io.BytesIO()
@@ -32,6 +38,12 @@ def write(path: Path, label: str, arrays: Mapping[str, Real]) -> None:
 
 def read(path: Path, label: str) -> dict[str, Real]:
     """Return the arrays of a file.
+
+    Parameters
+    ----------
+    path : Path
+    label : str
+        That the file has to have.
 
     Raises
     ------

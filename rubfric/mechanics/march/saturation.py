@@ -1,6 +1,6 @@
-"""Whether the friction of a march has settled: by what it did over as long as the slowest branch remembers.
+"""Whether the friction of a march has settled: by what it did over the memory of the slowest branch.
 
-Means over a wavelength that hardly differ do not prove saturation where the slowest branch remembers many wavelengths:
+Means over a wavelength that hardly differ do not prove saturation where the slowest branch relaxes over many of them:
 friction may turn, or go on by the same small change for as long. It counts as saturated when its means have stayed
 within the tolerance over the whole of that memory, tau v / lambda wavelengths, and at least over two wavelengths.
 """
@@ -49,7 +49,16 @@ class Saturation:
 
 
 def judge(scene: Scene, means: Real, tolerance: float) -> Saturation:
-    """Judge the means of friction over the wavelengths of a march, shape (wavelengths,)."""
+    """Judge the means of friction over the wavelengths of a march, shape (wavelengths,).
+
+    Parameters
+    ----------
+    scene : Scene
+    means : ndarray, shape (wavelengths,)
+        Friction, averaged over each wavelength.
+    tolerance : float
+        Largest relative variation.
+    """
     memory = max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.period
     needed = max(1, math.ceil(memory)) + 1
     if not len(means):
@@ -60,7 +69,14 @@ def judge(scene: Scene, means: Real, tolerance: float) -> Saturation:
 
 
 def wavelength_means(values: Real, steps: int) -> Real:
-    """Return the means over whole wavelengths of so many steps, shape (wavelengths,)."""
+    """Return the means over whole wavelengths of so many steps, shape (wavelengths,).
+
+    Parameters
+    ----------
+    values : ndarray, shape (steps,)
+    steps : int
+        Of a wavelength.
+    """
     whole = len(values) // steps
     means: Real = values[: whole * steps].reshape(whole, steps).mean(axis=1)
     return means

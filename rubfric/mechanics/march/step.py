@@ -47,7 +47,13 @@ class Outcome:
 
 
 def combine_steps(first: Outcome, second: Outcome) -> Outcome:
-    """Return what two steps, one after the other, do."""
+    """Return what two steps, one after the other, do.
+
+    Parameters
+    ----------
+    first : Outcome
+    second : Outcome
+    """
     return replace(
         second,
         road_work=first.road_work + second.road_work,
@@ -78,6 +84,15 @@ class Stepper(Protocol):
 
     def advance(self, duration: float, offset: float, pressure: float) -> Outcome:
         """Go one step: the road to an offset, mm, and the load to a pressure, MPa, in a duration, s.
+
+        Parameters
+        ----------
+        duration : float
+            s.
+        offset : float
+            How far the road has gone past at the end, mm.
+        pressure : float
+            Nominal, at the end, MPa.
 
         Raises
         ------

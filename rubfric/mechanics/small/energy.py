@@ -30,7 +30,7 @@ def evaluate_small(solution: SmallSolution) -> Energies:
     displacement = solution.response.displacement(solution.surface)
     thickness = material.thickness_ratio(frequencies, scene.plane)
     strain = harmonic_strain(block, solution.response, thickness, displacement)
-    # An amplitude stands for a harmonic and its conjugate: twice.
+    # An amplitude counts for a harmonic and for its conjugate.
     scale = 2.0 * block.columns / (scene.velocity * scene.pressure * block.width)
     power = stress_power(material, frequencies, strain).sum()
     lost = viscous_dissipation(material, frequencies, strain).sum()
@@ -50,13 +50,29 @@ def evaluate_small(solution: SmallSolution) -> Energies:
 
 
 def stress_power(material: Material, frequencies: Real, strain: StrainHarmonics) -> Real:
-    """Return w Im(stress x strain*), N/s per mm of thickness and harmonic, shape (rows, n)."""
+    """Return w Im(stress x strain*), N/s per mm of thickness and harmonic, shape (rows, n).
+
+    Parameters
+    ----------
+    material : Material
+    frequencies : ndarray, shape (n,)
+        Of the harmonics, rad/s.
+    strain : StrainHarmonics
+    """
     shear, bulk = material.complex_shear_modulus(frequencies), material.complex_bulk_modulus(frequencies)
     return frequencies * (2.0 * shear.imag * strain.shear_square + bulk.imag * strain.volume_square)
 
 
 def viscous_dissipation(material: Material, frequencies: Real, strain: StrainHarmonics) -> Real:
-    """Return sum_i (2 G_i |e - e_i|² + K_i |tr - tr_i|²) / tau_i, N/s per mm and harmonic, shape (rows, n)."""
+    """Return sum_i (2 G_i |e - e_i|² + K_i |tr - tr_i|²) / tau_i, N/s per mm and harmonic, shape (rows, n).
+
+    Parameters
+    ----------
+    material : Material
+    frequencies : ndarray, shape (n,)
+        Of the harmonics, rad/s.
+    strain : StrainHarmonics
+    """
     rates = 1.0 / np.asarray(material.relaxation_times, dtype=float)
     carried = np.abs(material.branch_transfer(frequencies)) ** 2
     shear = (material.branch_shear_moduli * rates) @ carried
@@ -65,7 +81,15 @@ def viscous_dissipation(material: Material, frequencies: Real, strain: StrainHar
 
 
 def stored_energy(material: Material, frequencies: Real, strain: StrainHarmonics) -> Real:
-    """Return the energy G |e|² + K |tr|² / 2 of all springs, N mm per mm and harmonic, shape (rows, n)."""
+    """Return the energy G |e|² + K |tr|² / 2 of all springs, N mm per mm and harmonic, shape (rows, n).
+
+    Parameters
+    ----------
+    material : Material
+    frequencies : ndarray, shape (n,)
+        Of the harmonics, rad/s.
+    strain : StrainHarmonics
+    """
     carried = np.abs(material.branch_transfer(frequencies)) ** 2
     shear = material.long_term_shear_modulus + material.branch_shear_moduli @ carried
     bulk = material.long_term_bulk_modulus + material.branch_bulk_moduli @ carried
@@ -77,6 +101,15 @@ def nodal_density(solution: SmallSolution, strain: StrainHarmonics, thickness: C
 
     Each spring of the model carries its own share of the nodal strains, which are recovered from the
     quadrature points; the long-term spring also carries the mean state, the block pressed between tied sides.
+
+    Parameters
+    ----------
+    solution : SmallSolution
+    strain : StrainHarmonics
+    thickness : ndarray of complex, shape (n,)
+        Strain across the thickness over in-plane dilatation.
+    columns : int
+        Of the output.
 
     Returns
     -------

@@ -138,6 +138,15 @@ class SmallStepper:
     def advance(self, duration: float, offset: float, pressure: float) -> Outcome:
         """Go one step: the road to an offset, mm, and the load to a pressure, MPa, in a duration, s.
 
+        Parameters
+        ----------
+        duration : float
+            s.
+        offset : float
+            How far the road has gone past at the end, mm.
+        pressure : float
+            Nominal, at the end, MPa.
+
         Raises
         ------
         NotConverged

@@ -56,7 +56,15 @@ class Modes:
     weight: Real
 
     def modulus(self, shear: float, bulk: float) -> Real:
-        """Return the moduli of the modes, MPa, for moduli of the rubber in MPa."""
+        """Return the moduli of the modes, MPa, for moduli of the rubber in MPa.
+
+        Parameters
+        ----------
+        shear : float
+            G, MPa.
+        bulk : float
+            K, MPa.
+        """
         return self.shear * shear + self.bulk * bulk
 
     def branch_moduli(self, material: Material) -> Real:

@@ -1,7 +1,7 @@
 """Small strain, steady sliding, exact in time: the block's response to each harmonic of the road.
 
-In the frame of the road every field depends on x only through harmonics n of wavenumber n k, which the
-sliding rubber feels at the frequency n k v. For each of them the block is a chain of rows with complex
+In the frame of the road every field depends on x only through harmonics n of wavenumber n k, which
+excite the sliding rubber at the frequency n k v. For each of them the block is a chain of rows with complex
 moduli, K_n = G*(n k v) K_shear + L*(n k v) K_dilatation, and one sweep over the rows from the top to the road
 eliminates it, for all harmonics at once: what remains is the compliance of the surface.
 
@@ -33,7 +33,7 @@ from rubfric.arrays import Complex, Real, Whole
 from rubfric.mechanics.block.block import Block
 from rubfric.rubber.material import Material
 
-# A harmonic decays as exp(-n k y): rows above n k y = 40 do not feel it in double precision.
+# A harmonic decays as exp(-n k y): rows above n k y = 40 are at rest in double precision.
 _FADED = 40.0
 
 
@@ -103,6 +103,13 @@ def stiffness_moduli(material: Material, frequency: Real, plane: str) -> tuple[C
 
     Plane strain: G* and K*. Plane stress, without stress across the thickness: G* and
     L* = 2 G* (3 K* - 2 G*) / (3 K* + 4 G*).
+
+    Parameters
+    ----------
+    material : Material
+    frequency : array_like, shape (...)
+        Angular frequency, rad/s.
+    plane : {"stress", "strain"}
     """
     shear, bulk = material.complex_shear_modulus(frequency), material.complex_bulk_modulus(frequency)
     if plane == "strain":
@@ -117,6 +124,8 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
 
     Parameters
     ----------
+    block : Block
+    material : Material
     velocity : float
         v, mm/s; negative slides the other way.
     harmonics : ndarray of int, shape (n,)

@@ -66,6 +66,11 @@ def solve_small(scene: Scene, decision: Decision) -> SmallSolution:
     Full contact needs the harmonics of the road and no contact solve; otherwise a closed-form layer scouts the
     contact. The mesh follows from it, and is refined as ``rubfric.mechanics.steady.refinement`` says.
 
+    Parameters
+    ----------
+    scene : Scene
+    decision : Decision
+
     Raises
     ------
     NotConverged
@@ -170,6 +175,12 @@ def scout(scene: Scene, filling: float) -> tuple[Flags, int]:
 
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
     ``filling`` is the pressure, MPa, that fills the road under it.
+
+    Parameters
+    ----------
+    scene : Scene
+    filling : float
+        Pressure that fills the road under the layer, MPa.
     """
     road = scene.road
     columns, iterations = _SCOUT_COLUMNS, 0

@@ -41,6 +41,8 @@ def harmonic_strain(
 
     Parameters
     ----------
+    block : Block
+    response : HarmonicResponse
     thickness : ndarray of complex, shape (n,)
         Strain across the thickness over in-plane dilatation, for each harmonic.
     displacement : ndarray of complex, shape (rows + 1, 2, n)
@@ -108,15 +110,15 @@ def _squares(strain: Complex, weights: Real, thickness: Complex, block: Block) -
     """Return the integrals of |e|² and |tr|² over cells, (rows, n), from strains (rows, points, 3, n)."""
     xx, yy, xy = strain[:, :, 0], strain[:, :, 1], strain[:, :, 2]
     flat = np.einsum("rp,rpn->rn", weights, _square(xx + yy))
-    felt = flat
+    effective = flat
     if not block.pointwise:
         area = weights.sum(axis=1)[:, None]
-        felt = _square(np.einsum("rp,rpn->rn", weights, xx + yy)) / area
-    volume = _square(1.0 + thickness) * felt
+        effective = _square(np.einsum("rp,rpn->rn", weights, xx + yy)) / area
+    volume = _square(1.0 + thickness) * effective
     straight = np.einsum("rp,rpn->rn", weights, _square(xx) + _square(yy) + 2.0 * _square(xy))
     if block.plane == "strain":
         return straight - flat / 3.0, volume
-    return straight + _square(thickness) * felt - volume / 3.0, volume
+    return straight + _square(thickness) * effective - volume / 3.0, volume
 
 
 def _square(amplitude: Complex) -> Real:

@@ -16,7 +16,14 @@ MOST_CLOSURE, _LEAST_CLOSURE, _ACCURACIES = 0.25, 0.05, 5.0
 
 
 def disagreement(routes: tuple[float, ...], resolution: float) -> float:
-    """Return the largest difference between routes to one number over the largest of them, or over ``resolution``."""
+    """Return the largest difference between routes to one number over the largest of them, or over ``resolution``.
+
+    Parameters
+    ----------
+    routes : tuple of float
+    resolution : float
+        What cannot be told from zero.
+    """
     return (max(routes) - min(routes)) / max(*(abs(route) for route in routes), resolution)
 
 
@@ -58,7 +65,14 @@ class Energies:
 
 
 def rows_to_nodes(heights: Real, cells: Real) -> Real:
-    """Average a quantity of the rows of cells to the rows of nodes, by area."""
+    """Average a quantity of the rows of cells to the rows of nodes, by area.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (rows,)
+        mm.
+    cells : ndarray, shape (rows,)
+    """
     total, area = np.zeros(len(heights) + 1), np.zeros(len(heights) + 1)
     for part in (slice(None, -1), slice(1, None)):
         total[part] += heights * cells
@@ -67,6 +81,13 @@ def rows_to_nodes(heights: Real, cells: Real) -> Real:
 
 
 def output_stride(columns: int, most: int) -> int:
-    """Return the least stride that leaves at most ``most`` columns, the crest, the trough and the flanks among them."""
+    """Return the least stride that leaves at most ``most`` columns, the crest, the trough and the flanks among them.
+
+    Parameters
+    ----------
+    columns : int
+    most : int
+        Columns that may be kept.
+    """
     quarter = columns // 4
     return next(stride for stride in range(1, quarter + 1) if quarter % stride == 0 and columns // stride <= most)

@@ -47,6 +47,12 @@ class Solver(Protocol[Solution]):
 def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
     """Solve a scene on meshes that follow from one another; return the solution on the last.
 
+    Parameters
+    ----------
+    scene : Scene
+    solver : Solver
+        Of that scene.
+
     Raises
     ------
     NotConverged
@@ -84,7 +90,16 @@ def _choices(scene: Scene, resolution: Resolution, factor: float, finite: bool) 
 
 
 def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> Solution:
-    """Return the solution on a mesh about half as fine as the contact needs; ``meshes`` gets what was solved."""
+    """Return the solution on a mesh about half as fine as the contact needs; ``meshes`` gets what was solved.
+
+    Parameters
+    ----------
+    scene : Scene
+    solver : Solver
+        Of that scene.
+    meshes : list of OnMesh
+        Gets what was solved.
+    """
     resolution = solver.first()
     solution = _solved(solver, resolution, meshes)
     while True:

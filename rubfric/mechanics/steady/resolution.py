@@ -49,23 +49,55 @@ class Resolution:
         )
 
     def affordable(self, scene: Scene, finite: bool) -> bool:
-        """Return whether so fine a mesh may be solved."""
+        """Return whether so fine a mesh may be solved.
+
+        Parameters
+        ----------
+        scene : Scene
+        finite : bool
+            In finite strain.
+        """
         return not finite or self.columns * self.block(scene).rows <= MOST_CELLS
 
     def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
-        """Return the mesh with cells smaller by ``factor`` in both directions."""
+        """Return the mesh with cells smaller by ``factor`` in both directions.
+
+        Parameters
+        ----------
+        scene : Scene
+        factor : float
+            Above 1.
+        finite : bool
+            In finite strain.
+        """
         growth = max(1.0 + (self.growth - 1.0) / factor, _LEAST_GROWTH)
         return Resolution(fit(scene, self.columns * factor, finite), growth)
 
     def coarser(self, scene: Scene, finite: bool) -> Resolution:
-        """Return the mesh with cells about twice as large in both directions."""
+        """Return the mesh with cells about twice as large in both directions.
+
+        Parameters
+        ----------
+        scene : Scene
+        finite : bool
+            In finite strain.
+        """
         least = max(_COARSEST_COLUMNS, 0.5 * COLUMNS_PER_HEIGHT / scene.aspect)
         growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
         return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
 
 
 def needed(scene: Scene, fraction: float, finite: bool) -> Resolution:
-    """Return the mesh that puts as many nodes as asked for into a contact of some fraction of the road."""
+    """Return the mesh that puts as many nodes as asked for into a contact of some fraction of the road.
+
+    Parameters
+    ----------
+    scene : Scene
+    fraction : float
+        Contact area over nominal area.
+    finite : bool
+        In finite strain.
+    """
     numerics = scene.numerics
     nodes = numerics.finite_contact_nodes if finite else numerics.contact_nodes
     least = numerics.finite_columns_min if finite else numerics.columns_min
@@ -74,12 +106,28 @@ def needed(scene: Scene, fraction: float, finite: bool) -> Resolution:
 
 
 def fit(scene: Scene, columns: float, finite: bool) -> int:
-    """Return about so many columns, fit for the mesh and for its transform, and no more than there may be."""
+    """Return about so many columns, fit for the mesh and for its transform, and no more than there may be.
+
+    Parameters
+    ----------
+    scene : Scene
+    columns : float
+        As many as are wanted.
+    finite : bool
+        In finite strain.
+    """
     steps = int(next_fast_len(math.ceil(columns / COLUMN_STEP), real=True))
     return min(COLUMN_STEP * steps, most_columns(scene, finite))
 
 
 def most_columns(scene: Scene, finite: bool) -> int:
-    """Return the most columns that a mesh may have."""
+    """Return the most columns that a mesh may have.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    """
     most = scene.numerics.columns_max
     return min(most, MOST_FINITE) if finite else most

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from scipy.optimize import brentq
 
@@ -12,13 +13,16 @@ from rubfric.rubber.material import Material
 _RANGE = 30.0
 
 
+@lru_cache(maxsize=64)
 def pressed(material: Material, pressure: float, plane: str) -> tuple[float, float]:
     """Return the stretch of a relaxed block along its height, and across its thickness.
 
-    The sides are tied; the load is dead: a force per area of the block as it was made.
+    The sides are tied; the load is dead: a force per area of the block as it was made. Solved once for each rubber,
+    load and plane.
 
     Parameters
     ----------
+    material : Material
     pressure : float
         Nominal, MPa.
     plane : {"stress", "strain"}
@@ -35,14 +39,31 @@ def pressed(material: Material, pressure: float, plane: str) -> tuple[float, flo
 
 
 def pressing(material: Material, stretch: float, plane: str) -> float:
-    """Return the nominal pressure, MPa, that presses a relaxed block to a stretch along its height."""
+    """Return the nominal pressure, MPa, that presses a relaxed block to a stretch along its height.
+
+    Parameters
+    ----------
+    material : Material
+    stretch : float
+        Height over that without load, dimensionless.
+    plane : {"stress", "strain"}
+    """
     along = math.log(stretch)
     across = _thickness(material, along) if plane == "stress" else 0.0
     return -_stresses(material, along, across)[0] * material.long_term_shear_modulus
 
 
 def stored_energy(material: Material, stretch: float, thickness: float) -> float:
-    """Return W of a relaxed block at the stretches that ``pressed`` returns, MPa."""
+    """Return W of a relaxed block at the stretches that ``pressed`` returns, MPa.
+
+    W = K / 4 (J² - 1) - K / 2 ln J + G / 2 (J^(-2/3) (1 + stretch² + thickness²) - 3), J = stretch x thickness.
+
+    Parameters
+    ----------
+    material : Material
+    stretch, thickness : float
+        Along the height and across the thickness, dimensionless.
+    """
     volume = stretch * thickness
     bulk = material.long_term_bulk_modulus
     trace = (1.0 + stretch * stretch + thickness * thickness) * volume ** (-2.0 / 3.0)

@@ -55,7 +55,18 @@ def layer_compliance(material: Material, wavenumber: ArrayLike, velocity: float,
 
 
 def full_contact_pressure(material: Material, road: SineScale, velocity: float, height: float, plane: str) -> float:
-    """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2."""
+    """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2.
+
+    Parameters
+    ----------
+    material : Material
+    road : SineScale
+    velocity : float
+        v, mm/s.
+    height : float
+        H, mm.
+    plane : {"stress", "strain"}
+    """
     compliance = layer_compliance(material, road.wavenumber, velocity, height, plane)
     return float(road.amplitude / abs(compliance))
 
@@ -63,7 +74,20 @@ def full_contact_pressure(material: Material, road: SineScale, velocity: float, 
 def full_contact_friction(
     material: Material, road: SineScale, velocity: float, pressure: float, height: float, plane: str
 ) -> float:
-    """Return mu = f a² k² Im E*(k v) / (4 p), valid from ``full_contact_pressure`` on."""
+    """Return mu = f a² k² Im E*(k v) / (4 p), valid from ``full_contact_pressure`` on.
+
+    Parameters
+    ----------
+    material : Material
+    road : SineScale
+    velocity : float
+        v, mm/s.
+    pressure : float
+        Nominal, MPa.
+    height : float
+        H, mm.
+    plane : {"stress", "strain"}
+    """
     compliance = layer_compliance(material, road.wavenumber, velocity, height, plane)
     return float(road.amplitude * road.steepest_slope * (1.0 / compliance).imag / (2.0 * pressure))
 

@@ -39,7 +39,14 @@ def estimated_fraction(scene: Scene) -> float:
 
 
 def near_crest(columns: int, fraction: float) -> Flags:
-    """Return which surface nodes lie in a share of the wavelength around the crest, at least one; shape (columns,)."""
+    """Return which surface nodes lie in a share of the wavelength around the crest, at least one; shape (columns,).
+
+    Parameters
+    ----------
+    columns : int
+    fraction : float
+        Share of the wavelength.
+    """
     from_crest: Real = np.abs((np.arange(columns) / columns + 0.25) % 1.0 - 0.5)  # in wavelengths
     return from_crest <= max(0.5 * fraction, 0.5 / columns)
 
@@ -86,6 +93,7 @@ def require_resolvable(scene: Scene, columns: int, remedy: str) -> None:
 
     Parameters
     ----------
+    scene : Scene
     columns : int
         Of the finest mesh.
     remedy : str
@@ -126,6 +134,13 @@ def require_height(scene: Scene) -> None:
 def require_columns(scene: Scene, columns: int, fewest: float) -> None:
     """Refuse to march a scene whose contact has fewer than ``fewest`` nodes on a surface of so many columns.
 
+    Parameters
+    ----------
+    scene : Scene
+    columns : int
+    fewest : float
+        Nodes that the contact must have.
+
     Raises
     ------
     InvalidInput
@@ -143,6 +158,7 @@ def require_resolved(scene: Scene, touching: Flags, steps: int, remedy: str) -> 
 
     Parameters
     ----------
+    scene : Scene
     touching : ndarray of bool, shape (columns,)
         Surface nodes in contact.
     steps : int

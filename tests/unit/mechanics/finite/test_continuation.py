@@ -12,7 +12,7 @@ from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite import continuation
 from rubfric.mechanics.finite.contact import Load, SlidingContact
-from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
+from rubfric.mechanics.finite.continuation import AttemptLog, Start, attempt, reach
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
 
 PRESSURE, TOLERANCE = 0.5, 1e-8
@@ -61,7 +61,7 @@ def only_the_first(number: int) -> Stall:
 
 
 def test_easy_contact_is_reached_at_once(problem: SlidingContact, pressed: Start) -> None:
-    history = History()
+    history = AttemptLog()
     solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     assert problem.size(solved.correction.step) <= TOLERANCE
     (line,) = history.lines
@@ -73,7 +73,7 @@ def test_road_is_raised_where_newton_stalls(
     problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
     expected = newton(problem, pressed.fields, LOAD, pressed.touching, TOLERANCE)
-    tried, history = stalling(only_the_first(1)), History()
+    tried, history = stalling(only_the_first(1)), AttemptLog()
     solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
     shares = [load.share for load in tried[1:]]
@@ -89,7 +89,7 @@ def test_road_is_raised_where_newton_stalls(
 def test_steps_are_shortened_where_they_stall(
     problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
-    tried, history = stalling(only_the_first(3)), History()
+    tried, history = stalling(only_the_first(3)), AttemptLog()
     reach(problem, pressed, LOAD, TOLERANCE, history)
     assert tried[1].share > tried[2].share > tried[3].share
     assert [" left after 2 Newton steps, no luck" in line for line in history.lines[:4]] == [True, True, True, False]
@@ -106,7 +106,7 @@ def test_load_is_raised_where_the_road_cannot_be(
         loads.append(load.pressure)
         return load.pressure == PRESSURE and min(loads) == PRESSURE
 
-    tried, history = stalling(not_before_lighter), History()
+    tried, history = stalling(not_before_lighter), AttemptLog()
     solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
     lighter = [load for load in tried if load.pressure < PRESSURE]
@@ -119,7 +119,7 @@ def test_load_is_raised_where_the_road_cannot_be(
 def test_all_ways_stalled_is_an_error_with_the_scenes_name(
     problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
-    tried, history = stalling(lambda _: True), History()
+    tried, history = stalling(lambda _: True), AttemptLog()
     sentence = (
         r"^some scene: not converged after \d+ steps, distance from .* is 0\.5; every way to a solution stalls: "
         r"the road may be too steep, or the load too heavy, for the rubber$"
@@ -136,7 +136,7 @@ def test_attempt_records_a_failure_and_passes_it_on(
     problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
     stalling(lambda _: True)
-    history = History()
+    history = AttemptLog()
     with pytest.raises(Stalled, match="no luck"):
         attempt(problem, pressed, LOAD, TOLERANCE, history, "a try")
     assert history.lines == ["a try: left after 2 Newton steps, no luck"]
@@ -144,7 +144,7 @@ def test_attempt_records_a_failure_and_passes_it_on(
 
 
 def test_history_adds_up(problem: SlidingContact, pressed: Start) -> None:
-    history = History()
+    history = AttemptLog()
     first, second = (attempt(problem, pressed, LOAD, tolerance, history, "a try") for tolerance in (1e-2, 1e-6))
     assert history.steps == first.steps + second.steps
     assert history.krylov == first.krylov + second.krylov

@@ -168,8 +168,8 @@ def test_tangent_adds_up_to_the_curvature_of_the_free_energy(unknowns: Real, bra
     state = deformed(unknowns)
     derivative = tangent(state, *driven(state, branch))
     _, curvature = volumetric_stress(BULK, state.volume)
-    past = BRANCH * np.einsum("ijp,jkp->ikp", derivative.by_driving, derivative.inverse)
-    total = derivative.local - past + curvature * derivative.volume[:, None] * derivative.volume
+    relaxing = BRANCH * np.einsum("ijp,jkp->ikp", derivative.by_driving, derivative.inverse)
+    total = derivative.local - relaxing + curvature * derivative.volume[:, None] * derivative.volume
 
     def stresses(moved: Real) -> Real:
         there = deformed(moved)

@@ -8,7 +8,7 @@ from finite_fields import PROPORTIONAL, RUBBER, coarse, flat, random_step, unifo
 
 from rubfric.mechanics.finite.block import FiniteBlock
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.memory import SteadyPast, StepPast
+from rubfric.mechanics.finite.memory import SteadyHistory, StepHistory
 from rubfric.rubber.material import Material
 
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
@@ -16,24 +16,24 @@ RUBBERS = pytest.mark.parametrize("rubber", [RUBBER, PROPORTIONAL], ids=["elasti
 
 
 def stepping(plane: str, rubber: Material, rng: np.random.Generator | None = None) -> FiniteBlock:
-    """Return a block in a step, which remembers a random past."""
+    """Return a block at the end of a step, with a random history."""
     finite = coarse(plane, rubber)
     rest = finite.at_rest()
     shape = (4, finite.points, finite.block.rows, finite.block.columns)
     driving = np.zeros(shape) if rng is None else rng.uniform(-1.0, 1.0, shape)
     bulk = 7.0 if rubber is PROPORTIONAL else 0.0
     pressure = -7.0 * rest.volume if rubber is PROPORTIONAL else 0.0
-    return finite.remembering(StepPast(3.0, bulk, driving, pressure, len(finite.block.harmonics)))
+    return finite.with_history(StepHistory(3.0, bulk, driving, pressure, len(finite.block.harmonics)))
 
 
 def test_another_past_leaves_the_block_alone() -> None:
     finite = coarse("strain")
-    other = finite.remembering(StepPast(3.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, 9))
-    assert isinstance(finite.past, SteadyPast)
-    assert isinstance(other.past, StepPast)
+    other = finite.with_history(StepHistory(3.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, 9))
+    assert isinstance(finite.history, SteadyHistory)
+    assert isinstance(other.history, StepHistory)
     assert other.block is finite.block
-    assert other.past.anchored
-    assert not finite.past.anchored
+    assert other.history.anchored
+    assert not finite.history.anchored
 
 
 @PLANES
