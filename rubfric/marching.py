@@ -15,7 +15,7 @@ from rubfric.mechanics.march.step import Stepper
 from rubfric.mechanics.small.march import SmallStepper
 from rubfric.mechanics.steady.energies import MOST_CLOSURE
 from rubfric.mechanics.theory.kinematics import decide
-from rubfric.mechanics.theory.limits import require_columns, require_height
+from rubfric.mechanics.theory.limits import require_columns, require_digits, require_height
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import MECHANICS
@@ -36,6 +36,9 @@ def march(
 
     Parameters
     ----------
+    scene : Scene
+    procedure : Procedure, optional
+        Mesh, steps and phases; the defaults of ``Procedure`` where it is left out.
     progress : callable, optional
         Gets a line every ten seconds.
     restart : Path, optional
@@ -46,17 +49,13 @@ def march(
     Raises
     ------
     InvalidInput
-        Where the block has too few columns for so light a contact, or the load leaves hardly anything of it.
+        Where the block has too few columns for so light a contact, the load leaves hardly anything of
+        the block, or the rubber is too nearly incompressible.
     NotConverged
         With the scene, the step and the residual, where halving a step does not help, or where columns or steps turn
         out too few: hardly a node touches the road, or the routes to friction contradict each other.
     """
-    given = procedure or Procedure()
-    require_columns(scene, given.columns, FEWEST_NODES)
-    decision = decide(scene)
-    if decision.kinematics == "finite":
-        require_height(scene)
-    marching = March(scene, given, decision, STEPPERS[decision.kinematics], MECHANICS[decision.kinematics].solve)
+    marching = begin(scene, procedure or Procedure())
     if restart is not None and restart.exists():
         marching.restore(restart)
     started = said = written = time.perf_counter()
@@ -75,7 +74,7 @@ def march(
     found = Transient(
         scene,
         marching.procedure,
-        decision.kinematics,
+        marching.decision.kinematics,
         marching.block,
         marching.records,
         marching.saturation,
@@ -83,6 +82,28 @@ def march(
     )
     _require_sound(found)
     return found
+
+
+def begin(scene: Scene, procedure: Procedure) -> March:
+    """Return a march of which no step is done yet, in the kinematics that the scene asks for or needs.
+
+    Parameters
+    ----------
+    scene : Scene
+    procedure : Procedure
+
+    Raises
+    ------
+    InvalidInput
+        As ``march`` does.
+    """
+    decision = decide(scene)
+    finite = decision.kinematics == "finite"
+    require_digits(scene, finite)
+    require_columns(scene, procedure.columns, FEWEST_NODES)
+    if finite:
+        require_height(scene)
+    return March(scene, procedure, decision, STEPPERS[decision.kinematics], MECHANICS[decision.kinematics].solve)
 
 
 def _require_sound(found: Transient) -> None:

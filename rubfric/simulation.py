@@ -19,7 +19,7 @@ from rubfric.mechanics.steady.refinement import Solver, refined
 from rubfric.mechanics.steady.resolution import MOST_FINITE, most_columns
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision, decide
-from rubfric.mechanics.theory.limits import require_height, require_resolvable, require_resolved
+from rubfric.mechanics.theory.limits import require_digits, require_height, require_resolvable, require_resolved
 from rubfric.results import dataset
 from rubfric.scene.scene import Scene
 
@@ -68,7 +68,8 @@ def simulate(scene: Scene) -> xr.Dataset:
     Raises
     ------
     InvalidInput
-        Where the contact is too light for any mesh that the scene may have, or the load leaves hardly anything of it.
+        Where the contact is too light for any mesh that the scene may have, the load leaves hardly anything of the
+        block, or the rubber is too nearly incompressible.
     NotConverged
         With the scene, the step and the residual; there is no result then.
 
@@ -83,6 +84,7 @@ def simulate(scene: Scene) -> xr.Dataset:
     started = time.perf_counter()
     decision = decide(scene)
     finite = decision.kinematics == "finite"
+    require_digits(scene, finite)
     if finite:
         require_height(scene)
     remedy = finer_mesh(finite)
@@ -97,8 +99,7 @@ def simulate(scene: Scene) -> xr.Dataset:
             solution.iterations,
             energies.closure,
             "relative difference of the three friction coefficients",
-            "the mesh does not resolve this scene, or Poisson's ratio is too near its bounds: raise the pressure; "
-            + remedy,
+            "the mesh does not resolve this scene, or Poisson's ratio is too near -1: raise the pressure; " + remedy,
         )
     return dataset.build(solution, energies, time.perf_counter() - started)
 

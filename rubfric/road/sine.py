@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rubfric.arrays import Real
+from rubfric.road.road import Waves
 from rubfric.rules import Number, check_fields
 
 
 @dataclass(frozen=True)
 class SineScale:
-    """One harmonic of a road: meaning, unit and bounds of each field are written beside it.
+    """A road of one wave: meaning, unit and bounds of each field are written beside it.
 
     Raises
     ------
@@ -35,6 +36,16 @@ class SineScale:
         return 2.0 * math.pi / self.wavenumber
 
     @property
+    def period(self) -> float:
+        """The wavelength, mm."""
+        return self.wavelength
+
+    @property
+    def waves(self) -> Waves:
+        """The one wave, of phase zero."""
+        return Waves(np.array([self.amplitude]), np.array([self.wavenumber]), np.zeros(1))
+
+    @property
     def steepest_slope(self) -> float:
         """A k, dimensionless."""
         return self.amplitude * self.wavenumber
@@ -46,6 +57,10 @@ class SineScale:
     def slope(self, position: ArrayLike) -> Real:
         """Return s'(x), dimensionless, at positions in mm of any shape."""
         return self.steepest_slope * np.cos(self.wavenumber * np.asarray(position, dtype=float))
+
+    def curvature(self, position: ArrayLike) -> Real:
+        """Return s''(x), 1/mm, at positions in mm of any shape."""
+        return -self.wavenumber * self.wavenumber * self.height(position)
 
     def excitation_frequency(self, velocity: float) -> float:
         """Return k v, rad/s: the frequency that the rubber feels when it slides at ``velocity`` mm/s."""

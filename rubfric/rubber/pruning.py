@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rubfric.arrays import Real, Whole
+from rubfric.arrays import Real
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
-from rubfric.scene.scene import Scene
 
 # Relaxation time, s, of the branch that never relaxes.
 _NEVER = 1e30
@@ -47,6 +46,7 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
 
     Parameters
     ----------
+    material : Material
     frequencies : ndarray, shape (n,)
         Every angular frequency that the scene excites, rad/s, none of them zero.
     tolerance : float
@@ -78,12 +78,6 @@ def fold(material: Material, frequencies: Real, tolerance: float) -> Folding:
     change = np.abs(reduced.complex_shear_modulus(frequencies) - material.complex_shear_modulus(frequencies)) / loss
     largest = float(max(bound.max(), change.max()))
     return Folding(reduced, relaxed, frozen, largest) if largest <= tolerance else Folding(material, (), (), 0.0)
-
-
-def fold_scene(scene: Scene, harmonics: Whole) -> Folding:
-    """Fold the branches that the harmonics of a scene do not need, within its accuracy."""
-    frequencies = harmonics * scene.road.excitation_frequency(scene.velocity)
-    return fold(scene.material, frequencies, scene.numerics.folding * scene.numerics.accuracy)
 
 
 def _reduced(material: Material, relaxed: tuple[int, ...], frozen: tuple[int, ...]) -> Material:

@@ -19,8 +19,8 @@ def friction_coefficient(scene: Scene, nodes: int = 2048) -> float:
     road, count = scene.road, COARSEST
     start = np.ones(count, dtype=bool)
     while True:
-        harmonics = np.arange(1, count // 2 + 1)
-        compliance = layer_compliance(scene.material, road, scene.velocity, scene.height, scene.plane, harmonics)
+        wavenumber = road.wavenumber * np.arange(1, count // 2 + 1)
+        compliance = layer_compliance(scene.material, wavenumber, scene.velocity, scene.height, scene.plane)
         spectrum, position = np.append(0.0, compliance), road.wavelength / count * np.arange(count)
         solved = full_contact(spectrum, road.height(position), scene.pressure)
         if solved is None:

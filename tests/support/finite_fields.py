@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
-from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.theory.compression import pressed
+from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
 
 Real = NDArray[np.float64]
@@ -62,8 +63,8 @@ def sliding(finite: FiniteBlock) -> SlidingContact:
     return SlidingContact(finite, (AMPLITUDE, AMPLITUDE * WAVENUMBER), "some scene")
 
 
-def road(pressure: float, amplitude: float = AMPLITUDE) -> Road:
-    return Road(amplitude, WAVENUMBER, pressure)
+def load(pressure: float, amplitude: float = AMPLITUDE) -> Load:
+    return Load(SineScale(amplitude, WAVENUMBER), pressure)
 
 
 def everywhere(finite: FiniteBlock) -> NDArray[np.bool_]:

@@ -34,7 +34,7 @@ def order(sizes: Sequence[float] | Real, errors: Sequence[float] | Real) -> floa
 def compliance_errors(rubber: Material, plane: str, columns: int, rows: Real) -> Real:
     """Return the relative errors of the surface compliance, of low harmonics."""
     response = respond(Block(ROAD.wavelength, HEIGHT, columns, rows, plane), rubber, 100.0, HARMONICS)
-    expected = reference.layer_compliance(rubber, ROAD, 100.0, HEIGHT, plane, HARMONICS)
+    expected = reference.layer_compliance(rubber, ROAD.wavenumber * HARMONICS, 100.0, HEIGHT, plane)
     return np.abs(response.compliance / expected - 1.0)
 
 

@@ -10,9 +10,10 @@ from scipy.optimize import minimize
 
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import FiniteBlock
-from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.finite.continuation import History, Start, attempt
 from rubfric.mechanics.theory.compression import pressed, stored_energy
+from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
 
 GLASSY = "glassy"
@@ -60,8 +61,8 @@ def test_block_finds_it_from_the_shape_it_was_made_in(rubber: Material, pressure
     touching = np.ones(16, dtype=bool)
     fields = problem.finite.at_rest()
     for share in (0.25, 0.5, 0.75, 1.0):
-        road = Road(0.0, 30.0, share * pressure)
-        solved = attempt(problem, Start(fields, touching), road, 1e-12, History(), "flat road")
+        load = Load(SineScale(0.0, 30.0), share * pressure)
+        solved = attempt(problem, Start(fields, touching), load, 1e-12, History(), "flat road")
         fields = solved.fields
     stretch, thickness = pressed(rubber, pressure, plane)
     np.testing.assert_allclose(

@@ -10,7 +10,7 @@ import pytest
 
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import FiniteBlock
-from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.contact import Load, SlidingContact, measures
 from rubfric.mechanics.finite.newton import Solved, newton
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.scene.scene import Scene
@@ -30,7 +30,6 @@ def point(request: pytest.FixtureRequest) -> tuple[float, float, float]:
 @pytest.fixture(scope="module", params=["strain", "stress"])
 def solved(request: pytest.FixtureRequest, paper_scene: SceneMaker, point: tuple[float, float, float]) -> Solved:
     scene = paper_scene(*point[:2], plane=request.param)
-    road = Road(scene.road.amplitude, scene.road.wavenumber, scene.pressure)
     block = Block.graded(scene.road.wavelength, scene.height, 64, scene.plane, 1.3)
     finite = FiniteBlock(block, scene.material, scene.velocity)
     stretch, thickness = pressed(scene.material, scene.pressure, scene.plane)
@@ -38,8 +37,8 @@ def solved(request: pytest.FixtureRequest, paper_scene: SceneMaker, point: tuple
     fields.displacement[1] = (stretch - 1.0) * block.row_positions[:, None]
     fields.log_thickness[:] = log(thickness)
     fields.volume[:] = stretch * thickness
-    problem = SlidingContact(finite, (road.amplitude, road.amplitude * road.wavenumber), "rate")
-    return newton(problem, fields, road, np.ones(64, dtype=bool), TOLERANCE)
+    problem = SlidingContact(finite, measures(scene.road), "rate")
+    return newton(problem, fields, Load(scene.road, scene.pressure), np.ones(64, dtype=bool), TOLERANCE)
 
 
 def test_last_steps_leave_less_than_a_twentieth(solved: Solved, point: tuple[float, float, float]) -> None:

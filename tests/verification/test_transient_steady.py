@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from begin_march import begin
 
-from rubfric.mechanics.march.march import wavelength_means
+from rubfric.marching import begin
+from rubfric.mechanics.march.saturation import wavelength_means
 from rubfric.road.sine import SineScale
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.procedure import Procedure

@@ -47,12 +47,12 @@ class RowOperator:
 
 @dataclass(frozen=True)
 class Block:
-    """A block one wavelength wide, meshed.
+    """A block one period of the road wide, meshed.
 
     Attributes
     ----------
     width, height : float
-        lambda and H, mm.
+        Period of the road and H, mm.
     columns : int
         Cells along x.
     row_positions : ndarray, shape (rows + 1,)
@@ -110,6 +110,11 @@ class Block:
     def harmonics(self) -> Whole:
         """0 ... columns / 2, the harmonics that the mesh can carry."""
         return np.arange(self.columns // 2 + 1)
+
+    @property
+    def wavenumbers(self) -> Real:
+        """Wavenumbers n 2 pi / width of the harmonics, 1/mm, shape (columns // 2 + 1,)."""
+        return 2.0 * np.pi / self.width * self.harmonics
 
     def operators(self) -> tuple[RowOperator, RowOperator]:
         """Return the operators of shear and of dilatation, to be weighed by the scene's moduli.

@@ -113,7 +113,7 @@ class FiniteBlock:
         self._to_points = np.ascontiguousarray(gradients.swapaxes(2, 3).reshape(rows, 2 * self.points, 4))
         weighed = gradients * self.quadrature.weights[:, :, None, None]
         self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
-        self.frequencies = 2.0 * np.pi / block.width * velocity * block.harmonics
+        self.frequencies = block.wavenumbers * velocity
         self.past: Past = SteadyPast(material, self.frequencies)
 
     def remembering(self, past: Past) -> FiniteBlock:

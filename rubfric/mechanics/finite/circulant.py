@@ -25,7 +25,7 @@ _BAND = 3
 
 
 @dataclass(frozen=True)
-class Load:
+class RightSide:
     """What the block answers to, in harmonic space, thickness and volume eliminated.
 
     Attributes
@@ -33,7 +33,7 @@ class Load:
     force : ndarray of complex, shape (2, rows + 1, n)
         N per mm of thickness.
     thickness : ndarray of complex, shape (1 or 0, points, rows, n)
-        Logarithm of the thickness stretch that the load causes in a block whose nodes are held.
+        Logarithm of the thickness stretch that it causes in a block whose nodes are held.
     volume : ndarray of complex, shape (points or 1, rows, n)
         Volume ratio that it causes there.
     """
@@ -98,7 +98,7 @@ class Circulant:
         if not finite.past.anchored:
             self.compliance[..., 0] = self._surface[:, 0] = 0.0
 
-    def load(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> Load:
+    def right_side(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> RightSide:
         """Return the load of nodal forces, N per mm, of stresses C_zz S_zz, MPa, and of an excess of volume."""
         force = fft.rfft(forces, axis=-1)
         thickness = fft.rfft(thickness_stress, axis=-1)
@@ -111,18 +111,18 @@ class Circulant:
             thickness = self._yield * thickness - self._swelling * volume
         force[:, :-1] -= pushed[:2]
         force[:, 1:] -= pushed[2:]
-        return Load(force, thickness, volume)
+        return RightSide(force, thickness, volume)
 
-    def surface(self, load: Load) -> Real:
+    def surface(self, right: RightSide) -> Real:
         """Return u_x and u_y at the surface, mm, shape (2, columns), without the means that are held."""
-        force = np.where(self._held(), 0.0, load.force.transpose(2, 1, 0).reshape(self._harmonics, -1))
+        force = np.where(self._held(), 0.0, right.force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = np.einsum("cnj,nj->cn", self._surface.reshape(2, self._harmonics, -1), force)
         answer: Real = fft.irfft(spectrum, self._finite.block.columns, axis=-1)
         return answer
 
-    def solve(self, load: Load, contact: Real) -> Fields:
+    def solve(self, right: RightSide, contact: Real) -> Fields:
         """Return the fields under a load and nodal forces at the surface, N per mm, shape (2, columns)."""
-        force = load.force.copy()
+        force = right.force.copy()
         force[:, 0] += fft.rfft(contact, axis=-1)
         ordered = np.where(self._held(), 0.0, force.transpose(2, 1, 0).reshape(self._harmonics, -1))
         spectrum = self._solve(ordered).transpose(2, 1, 0)
@@ -130,7 +130,7 @@ class Circulant:
             spectrum[0, :, 0] -= spectrum[0, 0, 0]
         corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
         dilatation = (self._dilatation * corners).sum(axis=0)
-        volume, thickness = load.volume + dilatation, load.thickness
+        volume, thickness = right.volume + dilatation, right.thickness
         if len(thickness):
             thickness = thickness - (self._thickness * corners).sum(axis=0) - self._swelling * dilatation
         columns = self._finite.block.columns

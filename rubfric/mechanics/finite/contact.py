@@ -10,6 +10,7 @@ road pushes along its normal there. The pressure on the top is a dead load.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,45 +20,52 @@ from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.block.contact import Contact, pivot
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness, Stressed
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.road.sine import SineScale
+from rubfric.road.road import Road
 
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
 _VOLUME = 0.03
-# On a flat road displacements count by this share of a wavelength instead of the amplitude.
+# On a flat road displacements count by this share of its period instead of the amplitude.
 _FLAT = 1e-7
 # A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
 _MOST_PIVOTS = 100
 
 
 @dataclass(frozen=True)
-class Road:
-    """The road and the load on it: amplitude a, mm; wavenumber k, 1/mm; p, MPa; how far it has gone past, mm.
+class Load:
+    """What acts on a block that stays where it is: a share of a road that goes past, and a pressure on its top.
 
-    Positions are those of the block, which stays where it is while the road goes past.
+    Parameters
+    ----------
+    road : Road
+    pressure : float
+        Nominal pressure p, MPa.
+    offset : float
+        How far the road has gone past, mm.
+    share : float
+        Height of the road over that which it has, dimensionless.
     """
 
-    amplitude: float
-    wavenumber: float
+    road: Road
     pressure: float
     offset: float = 0.0
+    share: float = 1.0
 
     def height(self, position: Real) -> Real:
-        """Return s(x), mm."""
-        return self.amplitude * np.sin(self.wavenumber * (position + self.offset))
+        """Return the height of the road, mm, at positions of the block in mm."""
+        return self.share * self.road.height(position + self.offset)
 
     def slope(self, position: Real) -> Real:
-        """Return s'(x)."""
-        return self.amplitude * self.wavenumber * np.cos(self.wavenumber * (position + self.offset))
+        """Return the slope of the road, dimensionless, at positions of the block in mm."""
+        return self.share * self.road.slope(position + self.offset)
 
     def curvature(self, position: Real) -> Real:
-        """Return s''(x), 1/mm."""
-        return -self.wavenumber * self.wavenumber * self.height(position)
+        """Return the curvature of the road, 1/mm, at positions of the block in mm."""
+        return self.share * self.road.curvature(position + self.offset)
 
 
-def measures(road: SineScale) -> tuple[float, float]:
+def measures(road: Road) -> tuple[float, float]:
     """Return the displacement, mm, and the relative change of thickness that count as one on a road."""
-    unit = max(road.amplitude, _FLAT * road.wavelength)
-    return unit, unit * road.wavenumber
+    return max(math.hypot(*road.waves.amplitudes), _FLAT * road.period), max(road.steepest_slope, 2.0 * math.pi * _FLAT)
 
 
 @dataclass(frozen=True)
@@ -125,7 +133,7 @@ class SlidingContact:
         self._shapes = (rest.displacement.shape, rest.log_thickness.shape, rest.volume.shape)
         self._ends = np.cumsum([rest.displacement.size, rest.log_thickness.size])
 
-    def correct(self, circulant: Circulant, fields: Fields, road: Road, touching: Flags) -> Correction:
+    def correct(self, circulant: Circulant, fields: Fields, load: Load, touching: Flags) -> Correction:
         """Return T(u) - u and the contact that goes with it.
 
         Raises
@@ -139,15 +147,15 @@ class SlidingContact:
         width = finite.block.column_width
         state = finite.stressed(fields)
         forces = finite.forces(state.stress[:4])
-        forces[1, -1] += road.pressure * width
-        load = circulant.load(-forces, -state.stress[4:], -state.volume_excess)
-        free = circulant.surface(load)
+        forces[1, -1] += load.pressure * width
+        right = circulant.right_side(-forces, -state.stress[4:], -state.volume_excess)
+        free = circulant.surface(right)
         position = finite.block.column_positions + fields.displacement[0, 0]
-        slope = road.slope(position)
-        height = fields.displacement[1, 0] - road.height(position) - slope * free[0] + free[1]
+        slope = load.slope(position)
+        height = fields.displacement[1, 0] - load.height(position) - slope * free[0] + free[1]
         surface = SlopedSurface(circulant.compliance, slope, width)
-        contact = pivot(surface, -height, road.pressure, touching, self.label, _MOST_PIVOTS)
-        step = circulant.solve(load, np.stack((-slope, np.ones_like(slope))) * contact.pressure * width)
+        contact = pivot(surface, -height, load.pressure, touching, self.label, _MOST_PIVOTS)
+        step = circulant.solve(right, np.stack((-slope, np.ones_like(slope))) * contact.pressure * width)
         step.displacement[1] += contact.offset
         return Correction(step, contact, position, slope, state)
 
@@ -182,18 +190,18 @@ class Linearised:
         The full tangent.
     correction : Correction
         T at the fields about which it is linearised.
-    road : Road
+    load : Load
     """
 
     def __init__(
-        self, problem: SlidingContact, circulant: Circulant, stiffness: Stiffness, correction: Correction, road: Road
+        self, problem: SlidingContact, circulant: Circulant, stiffness: Stiffness, correction: Correction, load: Load
     ) -> None:
         finite = problem.finite
         self._finite, self._circulant, self._stiffness = finite, circulant, stiffness
         self._normal = np.stack((-correction.slope, np.ones_like(correction.slope)))
         # The normal turns as nodes move along the road: a stiffness of the surface.
         force = correction.contact.pressure * finite.block.column_width
-        self._turning = force * road.curvature(correction.position)
+        self._turning = force * load.curvature(correction.position)
         self._inside = np.flatnonzero(correction.contact.touching)
         count = len(self._inside)
         saddle = np.ones((count + 1, count + 1))
@@ -209,12 +217,12 @@ class Linearised:
         change, excess = finite.change(self._stiffness, step)
         forces = finite.forces(change[:4])
         forces[0, 0] += self._turning * step.displacement[0, 0]
-        load = circulant.load(forces, change[4:], excess)
+        right = circulant.right_side(forces, change[4:], excess)
         # Contact forces keep the contact nodes at their distance from the road, and carry no more than before.
-        missed = (self._normal * (step.displacement[:, 0] - circulant.surface(load))).sum(axis=0)[self._inside]
+        missed = (self._normal * (step.displacement[:, 0] - circulant.surface(right))).sum(axis=0)[self._inside]
         held = lu_solve(self._saddle, np.append(-missed, 0.0), check_finite=False)
         contact = np.zeros_like(self._turning)
         contact[self._inside] = held[:-1]
-        answer = circulant.solve(load, -self._normal * contact)
+        answer = circulant.solve(right, -self._normal * contact)
         answer.displacement[1] -= held[-1]
         return answer

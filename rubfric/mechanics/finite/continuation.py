@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
-from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
 
 # What is solved on the way needs to be near, not exact.
@@ -66,7 +66,7 @@ class History:
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
 
-def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, history: History) -> Solved:
+def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, history: History) -> Solved:
     """Solve the contact from a block pressed on a flat road.
 
     Parameters
@@ -83,25 +83,21 @@ def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, hi
     """
     columns = problem.finite.block.columns
     try:
-        return attempt(problem, flat, road, tolerance, history, f"{columns} columns, at once")
+        return attempt(problem, flat, load, tolerance, history, f"{columns} columns, at once")
     except Stalled:
         pass
     rise = f"{columns} columns, road at "
     try:
-        return _follow(
-            problem, flat, lambda share: replace(road, amplitude=share * road.amplitude), tolerance, history, rise
-        )
+        return _follow(problem, flat, lambda share: replace(load, share=share), tolerance, history, rise)
     except Stalled:
         pass
-    light = replace(road, pressure=_LIGHT * road.pressure)
+    light = replace(load, pressure=_LIGHT * load.pressure)
     try:
-        first = _follow(
-            problem, flat, lambda share: replace(light, amplitude=share * road.amplitude), _ON_THE_WAY, history, rise
-        )
+        first = _follow(problem, flat, lambda share: replace(light, share=share), _ON_THE_WAY, history, rise)
         return _follow(
             problem,
             Start(first.fields, first.correction.contact.touching),
-            lambda share: replace(road, pressure=(_LIGHT + share * (1.0 - _LIGHT)) * road.pressure),
+            lambda share: replace(load, pressure=(_LIGHT + share * (1.0 - _LIGHT)) * load.pressure),
             tolerance,
             history,
             f"{columns} columns, load at ",
@@ -116,7 +112,7 @@ def reach(problem: SlidingContact, flat: Start, road: Road, tolerance: float, hi
         ) from stalled
 
 
-def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float, history: History, what: str) -> Solved:
+def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float, history: History, what: str) -> Solved:
     """Run Newton's method once and record how it went.
 
     Raises
@@ -127,7 +123,7 @@ def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float,
         Where it does, and the scene has had all the work that it may have.
     """
     try:
-        solved = newton(problem, start.fields, road, start.touching, tolerance)
+        solved = newton(problem, start.fields, load, start.touching, tolerance)
     except Stalled as stalled:
         history.left(problem, what, stalled)
         if history.work > _MOST_WORK:
@@ -141,12 +137,12 @@ def attempt(problem: SlidingContact, start: Start, road: Road, tolerance: float,
 def _follow(
     problem: SlidingContact,
     start: Start,
-    roads: Callable[[float], Road],
+    loads: Callable[[float], Load],
     tolerance: float,
     history: History,
     what: str,
 ) -> Solved:
-    """Follow roads(share) from share 0, where ``start`` solves it, to 1; Stalled where steps become too short."""
+    """Follow loads(share) from share 0, where ``start`` solves it, to 1; Stalled where steps become too short."""
     share, length = 0.0, _FIRST_SHARE
     here, before = start, None
     while True:
@@ -157,7 +153,7 @@ def _follow(
             solved = attempt(
                 problem,
                 Start(guess, here.touching),
-                roads(ahead),
+                loads(ahead),
                 tolerance if last else _ON_THE_WAY,
                 history,
                 f"{what}{ahead:.4g}",

@@ -15,8 +15,7 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.mechanics.finite.block import FiniteBlock
-from rubfric.mechanics.finite.branches import elongation, excess, trace
-from rubfric.mechanics.finite.law import Deformation, volumetric_energy
+from rubfric.mechanics.finite.law import Deformation, elongation, excess, trace, volumetric_energy
 from rubfric.mechanics.finite.memory import branch_transfers
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.mechanics.steady.energies import Energies, output_stride, rows_to_nodes

@@ -11,6 +11,9 @@ with branch tensors that follow dA_i / dt = (Cb^-1 - A_i) / tau_i. Its stress S 
 DEV[Cb^-1] vanishes: Cb^-1 may be taken from every A_i, so that the driving tensor Q of a relaxed rubber holds no
 difference of large numbers. U(J) = K/4 (J² - 1) - K/2 ln J, which no finite load can press to nothing.
 
+What branches store and dissipate follows from D_i = A_i - Cb^-1, by how much a branch is behind its equilibrium, so
+that branches that keep up lose no digits.
+
 Arrays have their components first: F xx, xy, yx, yy for a deformation gradient; xx, yy, xy, zz for a symmetric
 tensor. The unknowns at a point are F in plane strain (4), and F with the logarithm of the stretch across the
 thickness in plane stress (5); the stresses that go with them are the first Piola-Kirchhoff stress P = F S and
@@ -146,25 +149,25 @@ def stress(state: Deformation, driving: Real, volumetric: Real) -> Real:
     volumetric : ndarray, shape (...)
         U', MPa.
     """
-    spin, trace = _work(state, driving)
-    return state.isochoric * spin + (volumetric * state.volume - state.isochoric * trace / 3.0) * state.growth
+    spin, product = _work(state, driving)
+    return state.isochoric * spin + (volumetric * state.volume - state.isochoric * product / 3.0) * state.growth
 
 
 def second_stress(state: Deformation, driving: Real, volumetric: Real) -> Real:
     """Return the second Piola-Kirchhoff stress S, MPa, shape (4, ...)."""
-    trace = contract(driving, state.squared)
+    product = contract(driving, state.squared)
     reciprocal = state.isochoric * state.inverse  # C^-1
-    return state.isochoric * driving + (volumetric * state.volume - state.isochoric * trace / 3.0) * reciprocal
+    return state.isochoric * driving + (volumetric * state.volume - state.isochoric * product / 3.0) * reciprocal
 
 
 def tangent(state: Deformation, driving: Real, volumetric: Real) -> Tangent:
     """Return the derivatives of the stresses, and of what Q and U' follow from; arguments as for ``stress``."""
-    spin, trace = _work(state, driving)
+    spin, product = _work(state, driving)
     squared, growth, iso = state.squared, state.growth, state.isochoric
     size = len(growth)
     # ln J has the second derivative E / area - growth growth in F, and none in the thickness.
-    bend = volumetric * state.volume - iso * trace / 3.0
-    stretch = volumetric * state.volume + iso * trace * (2.0 / 9.0)
+    bend = volumetric * state.volume - iso * product / 3.0
+    stretch = volumetric * state.volume + iso * product * (2.0 / 9.0)
     local = np.empty((size, size, *state.area.shape))
     turned = (-2.0 / 3.0) * iso * spin
     for i in range(size):
@@ -228,3 +231,61 @@ def contract(one: Real, other: Real) -> Real:
     """Return the double contraction of two symmetric tensors."""
     total: Real = one[XX] * other[XX] + one[YY] * other[YY] + 2.0 * one[XY] * other[XY] + one[ZZ] * other[ZZ]
     return total
+
+
+def excess(behind: Real, squared: Real, inverse: Real) -> Real:
+    """Return A : Cb + A^-1 : Cb^-1 - 6, never negative: a branch dissipates G / (2 tau) times that.
+
+    Computed as the trace of (D Cb) (D A^-1), which does not cancel.
+
+    Parameters
+    ----------
+    behind, squared, inverse : ndarray, shape (4, ...)
+        D, Cb and Cb^-1.
+    """
+    branch = inverse + behind
+    determinant = branch[XX] * branch[YY] - branch[XY] * branch[XY]
+    one = _product(behind, squared)
+    other = _product(behind, (branch[YY], branch[XX], -branch[XY]))
+    plane = one[0] * other[0] + one[1] * other[2] + one[2] * other[1] + one[3] * other[3]
+    answer: Real = plane / determinant + behind[ZZ] * behind[ZZ] * squared[ZZ] / branch[ZZ]
+    return answer
+
+
+def elongation(behind: Real, squared: Real, inverse: Real) -> Real:
+    """Return A : Cb - ln det A - 3, never negative: a branch stores G / 2 times that.
+
+    Computed as tr M - ln det(1 + M) with M = D Cb, which loses few digits where D is small.
+
+    Parameters
+    ----------
+    behind, squared, inverse : ndarray, shape (4, ...)
+        D, Cb and Cb^-1.
+    """
+    xx, xy, yx, yy = _product(behind, squared)
+    zz = behind[ZZ] * squared[ZZ]
+    plane = xx + yy + xx * yy - xy * yx
+    answer: Real = np.maximum(xx + yy + zz - np.log1p(plane + zz + plane * zz), 0.0)
+    return answer
+
+
+def trace(tensor: Real) -> Real:
+    """Return the trace of a tensor, shape (4, ...)."""
+    total: Real = tensor[XX] + tensor[YY] + tensor[ZZ]
+    return total
+
+
+def inverted(tensor: Real) -> Real:
+    """Return the inverse of a symmetric tensor, shape (4, ...)."""
+    determinant = tensor[XX] * tensor[YY] - tensor[XY] * tensor[XY]
+    return np.stack((tensor[YY] / determinant, tensor[XX] / determinant, -tensor[XY] / determinant, 1.0 / tensor[ZZ]))
+
+
+def _product(one: Real, other: Real | tuple[Real, ...]) -> tuple[Real, Real, Real, Real]:
+    """Return the in-plane product of two symmetric tensors: its components xx, xy, yx, yy."""
+    return (
+        one[XX] * other[XX] + one[XY] * other[XY],
+        one[XX] * other[XY] + one[XY] * other[YY],
+        one[XY] * other[XX] + one[YY] * other[XY],
+        one[XY] * other[XY] + one[YY] * other[YY],
+    )

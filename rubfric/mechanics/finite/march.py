@@ -18,7 +18,7 @@ from rubfric.errors import NotConverged
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stressed
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Road, SlidingContact, measures
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
 from rubfric.mechanics.finite.continuation import History, Start, reach
 from rubfric.mechanics.finite.law import Inverted
 from rubfric.mechanics.finite.memory import StepPast, branch_transfers, convolve
@@ -90,7 +90,7 @@ class FiniteStepper:
         still = StepPast(0.0, 0.0, np.zeros((4, 1, 1, 1)), 0.0, len(self.block.harmonics))
         problem = SlidingContact(self.finite.remembering(still), self._scale, self.scene.name)
         flat = Start(self.finite.pressed(pressure), np.ones(self.block.columns, dtype=bool))
-        solved = reach(problem, flat, self._road(pressure, 0.0), self._tolerance, History())
+        solved = reach(problem, flat, Load(self.scene.road, pressure), self._tolerance, History())
         force = self._force(solved.correction)
         self.state = self._relaxed(solved.fields, solved.correction.contact.touching, force, pressure)
 
@@ -98,7 +98,7 @@ class FiniteStepper:
         """Bring the block into the state of a steady solution of this scene on this mesh."""
         fields, correction = solution.fields, solution.correction
         inverse = correction.state.deformation.inverse
-        frequencies = self.block.harmonics * self.scene.road.excitation_frequency(self.scene.velocity)
+        frequencies = self.block.wavenumbers * self.scene.velocity
         behind, swollen = self._branches.none(fields, inverse)
         for branch, transfer in enumerate(branch_transfers(self.scene.material, frequencies)):
             behind[:, branch] = -convolve(transfer, inverse)
@@ -162,12 +162,12 @@ class FiniteStepper:
         finite = self.finite.remembering(self._branches.past(self.state, relaxation))
         problem = SlidingContact(finite, self._scale, self.scene.name)
         kept = self._circulant[1] if self._circulant is not None and self._circulant[0] == lengths else None
-        road = self._road(pressure, offset)
+        load = Load(self.scene.road, pressure, offset)
         steps, residual = 0, math.inf
         try:
-            solved = newton(problem, *self._guess(relaxation, road), self._tolerance, kept, _WORTH)
+            solved = newton(problem, *self._guess(relaxation, load), self._tolerance, kept, _WORTH)
             steps, residual = solved.steps, solved.residuals[-1]
-            outcome = self._commit(solved, relaxation, road)
+            outcome = self._commit(solved, relaxation, load)
         except Stalled as error:
             raise NotConverged(self.scene.name, error.steps, error.residual, _MEASURE) from error
         except Inverted as error:
@@ -179,25 +179,22 @@ class FiniteStepper:
         """Forget what only saves work: steps from here on do not depend on how the state was reached."""
         self._circulant = None
 
-    def _road(self, pressure: float, offset: float) -> Road:
-        return Road(self.scene.road.amplitude, self.scene.road.wavenumber, pressure, offset)
-
-    def _guess(self, relaxation: Relaxation, road: Road) -> tuple[Fields, Road, Flags]:
-        """Return fields extrapolated in the frame of the road, the road, and the contact nodes moved with it."""
+    def _guess(self, relaxation: Relaxation, load: Load) -> tuple[Fields, Load, Flags]:
+        """Return fields extrapolated in the frame of the road, the load, and the contact nodes moved with it."""
         state = self.state
-        moved = road.offset - state.offset
+        moved = load.offset - state.offset
         touching = np.roll(state.touching, -round(moved / self.block.column_width))
         fields = self._shifted(state.fields, moved)
         if relaxation.follows:
             change = fields.moved(self._shifted(state.before, moved + state.advance), -1.0)
             fields = fields.moved(change, relaxation.duration / relaxation.before)
-        return fields, road, touching
+        return fields, load, touching
 
     def _shifted(self, fields: Fields, distance: float) -> Fields:
         """Return the fields of a block that is so much further along the road, mm, and does the same there."""
         if distance == 0.0:
             return fields
-        turn = np.exp(2j * np.pi / self.block.width * distance * self.block.harmonics)
+        turn = np.exp(1j * distance * self.block.wavenumbers)
         parts = (fields.displacement, fields.log_thickness, fields.volume)
         return Fields(*(fft.irfft(fft.rfft(part, axis=-1) * turn, self.block.columns, axis=-1) for part in parts))
 
@@ -205,7 +202,7 @@ class FiniteStepper:
         normal = np.stack((-correction.slope, np.ones_like(correction.slope)))
         return normal * correction.contact.pressure * self.block.column_width
 
-    def _commit(self, solved: Solved, relaxation: Relaxation, road: Road) -> Outcome:
+    def _commit(self, solved: Solved, relaxation: Relaxation, load: Load) -> Outcome:
         old, fields, contact = self.state, solved.fields, solved.correction.contact
         stressed: Stressed = solved.correction.state
         inverse, squared = stressed.deformation.inverse, stressed.deformation.isochoric_squared
@@ -221,16 +218,16 @@ class FiniteStepper:
             touching=contact.touching,
             force=self._force(solved.correction),
             duration=relaxation.duration,
-            advance=road.offset - old.offset,
-            offset=road.offset,
-            pressure=road.pressure,
+            advance=load.offset - old.offset,
+            offset=load.offset,
+            pressure=load.pressure,
             stored=self._branches.stored(squared, inverse, fields.volume, behind, swollen),
         )
         moved = fields.displacement - old.fields.displacement
         lost = self._branches.dissipated(old, relaxation, inverse, fields.volume)
         self.state = new
         return Outcome(
-            friction=float(np.mean(contact.pressure * solved.correction.slope) / road.pressure),
+            friction=float(np.mean(contact.pressure * solved.correction.slope) / load.pressure),
             road_work=float(0.5 * ((old.force + new.force) * moved[:, 0]).sum()),
             load_work=-0.5 * (old.pressure + new.pressure) * self.block.width * float(moved[1, -1].mean()),
             stored=new.stored,

@@ -15,7 +15,7 @@ from rubfric.arrays import Flags, Real
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, Road, SlidingContact
+from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
@@ -75,7 +75,7 @@ class Solved:
 def newton(
     problem: SlidingContact,
     start: Fields,
-    road: Road,
+    load: Load,
     touching: Flags,
     tolerance: float,
     circulant: Circulant | None = None,
@@ -101,7 +101,7 @@ def newton(
     residuals: list[float] = []
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
-            return _iterate(problem, start, road, touching, tolerance, circulant, worth, residuals)
+            return _iterate(problem, start, load, touching, tolerance, circulant, worth, residuals)
     except FloatingPointError as error:  # fields too far off for arithmetic
         raise Stalled(str(error), len(residuals), 0, residuals[-1] if residuals else np.inf) from error
 
@@ -109,7 +109,7 @@ def newton(
 def _iterate(
     problem: SlidingContact,
     start: Fields,
-    road: Road,
+    load: Load,
     touching: Flags,
     tolerance: float,
     circulant: Circulant | None,
@@ -123,9 +123,9 @@ def _iterate(
         try:
             if circulant is None:
                 average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant, correction = Circulant(problem.finite, average, road.pressure), None
+                circulant, correction = Circulant(problem.finite, average, load.pressure), None
             if correction is None:
-                correction = problem.correct(circulant, fields, road, touching)
+                correction = problem.correct(circulant, fields, load, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
             raise Stalled(str(error), steps, krylov, residuals[-1] if residuals else np.inf) from error
         size = problem.size(correction.step)
@@ -135,10 +135,10 @@ def _iterate(
         if len(residuals) > _MOST_STEPS:
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
         stiffness = problem.finite.stiffness(fields, correction.state)
-        linear = Linearised(problem, circulant, stiffness, correction, road)
+        linear = Linearised(problem, circulant, stiffness, correction, load)
         direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
         krylov += count
-        ahead = _advance(problem, circulant, fields, direction, road, correction, max(residuals[-_MEMORY:]))
+        ahead = _advance(problem, circulant, fields, direction, load, correction, max(residuals[-_MEMORY:]))
         if ahead is None:
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
         fields, correction = ahead
@@ -174,7 +174,7 @@ def _advance(
     circulant: Circulant,
     fields: Fields,
     direction: Fields,
-    road: Road,
+    load: Load,
     correction: Correction,
     size: float,
 ) -> tuple[Fields, Correction] | None:
@@ -186,7 +186,7 @@ def _advance(
     while share >= _SHORTEST_STEP:
         moved = fields.moved(direction, share)
         try:
-            ahead = problem.correct(circulant, moved, road, correction.contact.touching)
+            ahead = problem.correct(circulant, moved, load, correction.contact.touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
             pass
         else:

@@ -14,8 +14,7 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
-from rubfric.mechanics.finite.branches import elongation, excess, inverted, trace
-from rubfric.mechanics.finite.law import Inverted, volumetric_energy
+from rubfric.mechanics.finite.law import Inverted, elongation, excess, inverted, trace, volumetric_energy
 from rubfric.mechanics.finite.memory import StepPast
 from rubfric.rubber.maxwell import Relaxation
 

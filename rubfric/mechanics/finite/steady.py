@@ -9,18 +9,17 @@ import numpy as np
 
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
-from rubfric.mechanics.finite.contact import Correction, Road, SlidingContact, measures
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
 from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
 from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.prolongation import prolong
 from rubfric.mechanics.steady.energies import ROUND_OFF
 from rubfric.mechanics.steady.refinement import SHORTFALL, refined
 from rubfric.mechanics.steady.resolution import Resolution, fit, needed
-from rubfric.mechanics.steady.solution import Friction, SteadySolution
+from rubfric.mechanics.steady.solution import Friction, SteadySolution, fold_scene
 from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.limits import estimated_fraction, near_crest
-from rubfric.rubber.pruning import fold_scene
 from rubfric.scene.scene import Scene
 
 # The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
@@ -98,7 +97,7 @@ class FiniteSolver:
     def __init__(self, scene: Scene, decision: Decision) -> None:
         self.scene = scene
         self.decision = decision
-        self._road = Road(scene.road.amplitude, scene.road.wavenumber, scene.pressure)
+        self._load = Load(scene.road, scene.pressure)
         self._history = History()
         self._before: tuple[FiniteBlock, Solved] | None = None
 
@@ -115,14 +114,14 @@ class FiniteSolver:
         """Return the solution on a mesh."""
         scene, tolerance, history = self.scene, self.scene.numerics.tolerance, self._history
         block = resolution.block(scene)
-        folding = fold_scene(scene, block.harmonics[1:])
+        folding = fold_scene(scene, block.wavenumbers[1:])
         finite = FiniteBlock(block, folding.material, scene.velocity)
         problem = SlidingContact(finite, measures(scene.road), scene.name)
         solved = self._warm(problem)
         if solved is None:
             near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
             flat = Start(finite.pressed(scene.pressure), near)
-            solved = reach(problem, flat, self._road, tolerance, history)
+            solved = reach(problem, flat, self._load, tolerance, history)
         self._before = finite, solved
         contact = solved.correction.contact
         wanted = (1.0 - SHORTFALL) * min(scene.numerics.finite_contact_nodes, block.columns)
@@ -153,7 +152,7 @@ class FiniteSolver:
         )
         what = f"{columns} columns, from {finite.block.columns}"
         try:
-            return attempt(problem, start, self._road, self.scene.numerics.tolerance, self._history, what)
+            return attempt(problem, start, self._load, self.scene.numerics.tolerance, self._history, what)
         except Stalled:
             return None
 

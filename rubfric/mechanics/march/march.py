@@ -11,6 +11,7 @@ import dataclasses
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,25 +31,53 @@ _MOST_HALVINGS = 6
 # Steps after which models start afresh from their states, so that a march may be taken up again there.
 FRESH = 32
 
-COLUMNS = (
-    "time",
-    "slid",
-    "pressure",
-    "phase",
-    "friction_contact",
-    "friction_work",
-    "friction_energy",
-    "stored_energy",
-    "dissipated",
-    "road_work",
-    "load_work",
-    "imbalance",
-    "contact_fraction",
-    "top_displacement",
-    "iterations",
-    "krylov",
-    "halvings",
-)
+
+class Record(NamedTuple):
+    """What is recorded of one step; works and energies in N mm per mm of thickness.
+
+    Attributes
+    ----------
+    time : float
+        Since the begin of the march, at the end of the step, s.
+    slid : float
+        Distance, mm.
+    pressure : float
+        Nominal, MPa.
+    phase : float
+        Index in ``PHASES``.
+    friction_contact : float
+        Friction coefficient by the contact force at the end of the step.
+    friction_work, friction_energy : float
+        Mean friction coefficient of the step by the work of the road, and by stored and dissipated energy less the
+        work of the load; NaN where nothing slides.
+    stored_energy : float
+        At the end of the step.
+    dissipated, road_work, load_work, imbalance : float
+        In the step; ``imbalance`` is what the first law misses.
+    contact_fraction : float
+    top_displacement : float
+        Mean u_y of the top, mm.
+    iterations, krylov, halvings : float
+        Newton or pivoting steps, applications of the tangent, and how often the step was halved.
+    """
+
+    time: float
+    slid: float
+    pressure: float
+    phase: float
+    friction_contact: float
+    friction_work: float
+    friction_energy: float
+    stored_energy: float
+    dissipated: float
+    road_work: float
+    load_work: float
+    imbalance: float
+    contact_fraction: float
+    top_displacement: float
+    iterations: float
+    krylov: float
+    halvings: float
 
 
 class March:
@@ -85,7 +114,7 @@ class March:
         self.scene, self.procedure, self.decision = scene, procedure, decision
         numerics, road = scene.numerics, scene.road
         self.block = Block.graded(
-            road.wavelength,
+            road.period,
             scene.height,
             procedure.columns,
             scene.plane,
@@ -95,7 +124,7 @@ class March:
         )
         self.position = 0
         self._steps: Steps = procedure.steps(scene)
-        self._records: list[tuple[float, ...]] = []
+        self._records: list[Record] = []
         self.seconds = 0.0
         self._model = stepper(scene, self.block)
         if procedure.start == "relaxed":
@@ -130,7 +159,7 @@ class March:
     @property
     def saturation(self) -> Saturation:
         """Whether friction has settled, and on what."""
-        friction = np.array([record[COLUMNS.index("friction_contact")] for record in self._records])
+        friction = np.array([record.friction_contact for record in self._records])
         means = wavelength_means(friction[len(friction) - max(self._slid, 0) :], self.procedure.steps_per_wavelength)
         return judge(self.scene, means, self.procedure.saturation)
 
@@ -145,26 +174,27 @@ class March:
         pressure, duration = float(steps.pressure[at]), float(steps.duration[at])
         outcome, halvings = self._advance(duration, offset, pressure, 0)
         force = pressure * self.block.width * (offset - before)  # times the distance: what friction of 1 would do
-        past = self._records[-1][0] if self._records else 0.0
+        elapsed = self._records[-1].time if self._records else 0.0
+        internal = outcome.stored_change + outcome.dissipated - outcome.load_work
         self._records.append(
-            (
-                past + duration,
-                float(steps.offset[at]),
-                pressure,
-                float(steps.phase[at]),
-                outcome.friction,
-                outcome.road_work / force if force else np.nan,
-                (outcome.stored_change + outcome.dissipated - outcome.load_work) / force if force else np.nan,
-                outcome.stored,
-                outcome.dissipated,
-                outcome.road_work,
-                outcome.load_work,
-                outcome.imbalance,
-                outcome.contact_fraction,
-                outcome.top,
-                float(outcome.iterations),
-                float(outcome.krylov),
-                float(halvings),
+            Record(
+                time=elapsed + duration,
+                slid=float(steps.offset[at]),
+                pressure=pressure,
+                phase=float(steps.phase[at]),
+                friction_contact=outcome.friction,
+                friction_work=outcome.road_work / force if force else np.nan,
+                friction_energy=internal / force if force else np.nan,
+                stored_energy=outcome.stored,
+                dissipated=outcome.dissipated,
+                road_work=outcome.road_work,
+                load_work=outcome.load_work,
+                imbalance=outcome.imbalance,
+                contact_fraction=outcome.contact_fraction,
+                top_displacement=outcome.top,
+                iterations=float(outcome.iterations),
+                krylov=float(outcome.krylov),
+                halvings=float(halvings),
             )
         )
         self.position += 1
@@ -191,23 +221,26 @@ class March:
     def line(self, pace: float) -> str:
         """Return a line of progress."""
         at = self.position
-        last = dict(zip(COLUMNS, self._records[-1], strict=True))
+        last = self._records[-1]
         return (
-            f"{self.scene.name}: step {at} of at most {len(self._steps.duration)} ({PHASES[int(last['phase'])]}), "
-            f"slid {last['slid'] / self.scene.road.wavelength:.2f} wavelengths, "
-            f"friction {last['friction_contact']:.4f}, {pace:.1f} steps/s"
+            f"{self.scene.name}: step {at} of at most {len(self._steps.duration)} ({PHASES[int(last.phase)]}), "
+            f"slid {last.slid / self.scene.road.period:.2f} wavelengths, "
+            f"friction {last.friction_contact:.4f}, {pace:.1f} steps/s"
         )
 
     @property
     def records(self) -> dict[str, Real]:
-        """What has been recorded, by the names in ``COLUMNS``, each of shape (steps,)."""
-        table = np.array(self._records).reshape(-1, len(COLUMNS)).T
-        return dict(zip(COLUMNS, table, strict=True))
+        """What has been recorded, by the names in ``Record``, each of shape (steps,)."""
+        return dict(zip(Record._fields, self._table.T, strict=True))
+
+    @property
+    def _table(self) -> Real:
+        return np.array(self._records).reshape(-1, len(Record._fields))
 
     def save(self, path: Path) -> None:
         """Leave the march in a file; ``restore`` goes on from there."""
         arrays = {f"model.{name}": array for name, array in self._model.snapshot().items()}
-        arrays["records"] = np.array(self._records).reshape(-1, len(COLUMNS))
+        arrays["records"] = self._table
         arrays["marched"] = np.array((self.position, self.seconds, self._begin))
         checkpoint.write(path, self._label, arrays)
 
@@ -222,7 +255,7 @@ class March:
         arrays = checkpoint.read(path, self._label)
         position, self.seconds, self._begin = (float(value) for value in arrays["marched"])
         self.position = int(position)
-        self._records = [tuple(float(value) for value in record) for record in arrays["records"]]
+        self._records = [Record(*(float(value) for value in record)) for record in arrays["records"]]
         self._model.restore(
             {name.removeprefix("model."): array for name, array in arrays.items() if name.startswith("model.")}
         )

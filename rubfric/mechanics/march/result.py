@@ -31,12 +31,7 @@ class Transient:
     kinematics : {"small", "finite"}
     block : Block
     records : dict of ndarray, each of shape (steps,)
-        By name: ``time`` s; ``slid`` mm; ``pressure`` MPa; ``phase`` (index in ``PHASES``); friction coefficients
-        ``friction_contact`` (at the end of the step), ``friction_work`` (work of the road) and ``friction_energy``
-        (stored and dissipated energy less the work of the load), both means of the step and NaN where nothing
-        slides; ``stored_energy``, ``dissipated``, ``road_work``, ``load_work`` and ``imbalance`` (of the first law, in
-        the step), N mm per mm of thickness; ``contact_fraction``; ``top_displacement`` mm; ``iterations``,
-        ``krylov`` and ``halvings``.
+        By the names and in the units of ``rubfric.mechanics.march.march.Record``.
     saturation : Saturation
         Whether friction has settled, and on what.
     seconds : float

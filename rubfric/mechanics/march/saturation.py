@@ -50,7 +50,7 @@ class Saturation:
 
 def judge(scene: Scene, means: Real, tolerance: float) -> Saturation:
     """Judge the means of friction over the wavelengths of a march, shape (wavelengths,)."""
-    memory = max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
+    memory = max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.period
     needed = max(1, math.ceil(memory)) + 1
     if not len(means):
         return Saturation(math.nan, 0, needed, math.nan, False)

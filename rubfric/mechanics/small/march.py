@@ -126,9 +126,7 @@ class SmallStepper:
     def slide_steadily(self, solution: SmallSolution) -> None:
         """Bring the block into the state of a steady solution of this scene on this mesh."""
         scene, contact = self.scene, solution.contact
-        transfer = scene.material.branch_transfer(
-            self._modes.harmonic * scene.road.excitation_frequency(scene.velocity)
-        )
+        transfer = scene.material.branch_transfer(self.block.wavenumbers[self._modes.harmonic] * scene.velocity)
         modulus = self._relaxed + (self._branches * transfer).sum(axis=0)
         modes = self._forces(contact.pressure, scene.pressure) / modulus
         self._start(modes, transfer * modes, contact, scene.pressure)

@@ -82,6 +82,8 @@ def surface_modes(block: Block) -> Modes:
     found = [_elements(np.array([unit]), np.array([np.sqrt(unit)]), block.plane)]
     for wave in waves.T[1:]:
         values, vectors = eigh(_dense(dilatation, wave), _dense(shear, wave))
+        if not block.pointwise:  # one mean dilatation a row of cells: the other modes have none but round-off
+            values[: -block.rows] = 0.0
         found.append(_elements(np.maximum(values, 0.0), vectors[1], block.plane))
     counts = np.array([len(elements[0]) for elements in found])
     harmonic = np.repeat(block.harmonics, counts)

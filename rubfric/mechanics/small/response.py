@@ -5,6 +5,19 @@ sliding rubber feels at the frequency n k v. For each of them the block is a cha
 moduli, K_n = G*(n k v) K_shear + L*(n k v) K_dilatation, and one sweep over the rows from the top to the road
 eliminates it, for all harmonics at once: what remains is the compliance of the surface.
 
+With M the stiffness of a row of nodes u' to which all above it is condensed, and [A B; B^T .] that of the cells below
+it, the next row u has, for pointwise dilatation,
+
+    u' = -M^-1 B^T u,    M_next = A - B M^-1 B^T.
+
+Where dilatation acts through its mean over each cell, its form is of rank one, L* h (c u + d u')². It is kept out of A,
+B and M: the pressure q = L* h (c u + d u') of the cells is eliminated with u',
+
+    w = c - B M^-1 d,    s = 1 / (L* h) + d M^-1 d,    q = w u / s,
+    u' = -M^-1 (B^T u + d q),    M_next = A - B M^-1 B^T + w w^T / s,
+
+which loses no digits however much larger the bulk modulus is than the shear modulus.
+
 A field is stored by its complex amplitudes: f(x) = f_0 + 2 Re sum_n f_n exp(i n k x). The last harmonic,
 n = columns / 2, is its own conjugate at the nodes, and stored by half.
 """
@@ -109,9 +122,13 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
     harmonics : ndarray of int, shape (n,)
         Ascending, from 1 to columns / 2.
     """
-    wavenumber = 2.0 * np.pi / block.width * harmonics
-    chain = _weigh(block, harmonics, stiffness_moduli(material, wavenumber * velocity, block.plane))
+    wavenumber = block.wavenumbers[harmonics]
+    shear, dilatation = stiffness_moduli(material, wavenumber * velocity, block.plane)
+    moduli = (shear, dilatation) if block.pointwise else (shear,)
+    chain = _weigh(block, harmonics, moduli)
     active = _active(block, wavenumber)
+    heights = np.diff(block.row_positions) / block.column_width
+    across, along = np.sin(np.pi / block.columns * harmonics), np.cos(np.pi / block.columns * harmonics)
     # u_x vanishes at the top: its harmonics are held, so only the entry yy is inverted there.
     zero = np.zeros(active[-1], dtype=complex)
     inverse = (zero, zero, 1.0 / chain.own[2, -1, : active[-1]])
@@ -120,11 +137,16 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
         above, count = active[row + 1], active[row]
         xx, xy, yy = chain.own[:, row, :count]
         step, correction = _eliminate(chain.upward[:, row, :above], inverse)
+        gradient, softness = np.array((across, along / heights[row])), 1.0 / (dilatation * heights[row])
+        if not block.pointwise:
+            _add_mean_dilatation(step, correction, inverse, gradient[:, :above], softness[:above])
         transfer.append(step)
         for entry, part in zip((xx, xy, yy), correction, strict=True):
             entry[:above] -= part
         determinant = xx * yy - xy * xy
         inverse = (yy / determinant, -xy / determinant, xx / determinant)
+        if not block.pointwise:  # for the harmonics that have faded above, the row above is at rest
+            _stiffen(inverse, gradient[:, above:count], softness[above:count], slice(above, count))
     _, coupling, compliance = inverse
     # A pressure p over one column acts on its node as the force p times the column's width.
     return HarmonicResponse(harmonics, compliance * block.column_width, coupling / compliance, transfer[::-1])
@@ -146,7 +168,8 @@ class _Chain:
     upward: Complex
 
 
-def _weigh(block: Block, harmonics: Whole, moduli: tuple[Complex, Complex]) -> _Chain:
+def _weigh(block: Block, harmonics: Whole, moduli: tuple[Complex, ...]) -> _Chain:
+    """Return the stiffness that the forms of ``Block.operators`` make with as many moduli as are given."""
     operators = block.operators()
     angle = 2.0 * np.pi / block.columns * harmonics
     waves = np.stack((np.ones_like(angle), 2.0 * np.sin(0.5 * angle) ** 2, np.sin(angle)))
@@ -154,7 +177,7 @@ def _weigh(block: Block, harmonics: Whole, moduli: tuple[Complex, Complex]) -> _
     straight, mixed = slice(0, 2), slice(2, 3)
 
     def entry(part: str, parts: slice, low: int, high: int) -> Complex:
-        terms = zip(operators, moduli, strict=True)
+        terms = zip(operators, moduli, strict=False)
         return np.sum(
             [getattr(form, part)[parts, :, low, high].T @ (waves[parts] * weight) for form, weight in terms], axis=0
         )
@@ -185,3 +208,44 @@ def _eliminate(
     correction = (xx * x_from_x + xy * y_from_x, xx * x_from_y + xy * y_from_y, yx * x_from_y + yy * y_from_y)
     step = np.array(((x_from_x, x_from_y), (y_from_x, y_from_y)))
     return np.negative(step, out=step), correction
+
+
+def _add_mean_dilatation(
+    step: Complex,
+    correction: tuple[Complex, Complex, Complex],
+    inverse: tuple[Complex, Complex, Complex],
+    gradient: Real,
+    softness: Complex,
+) -> None:
+    """Add to the results of ``_eliminate``, in place, what the mean dilatation of the cells adds.
+
+    Parameters
+    ----------
+    step : ndarray of complex, shape (2, 2, m)
+        -M^-1 B^T, to which -M^-1 d w^T / s is added.
+    correction, inverse : tuple of ndarray of complex, each of shape (m,)
+        xx, xy, yy of B M^-1 B^T, from which w w^T / s is taken, and of M^-1.
+    gradient : ndarray, shape (2, m)
+        d, times the width of a column; c is d with its y component turned.
+    softness : ndarray of complex, shape (m,)
+        1 / (L* h), h being the height of the cells over their width.
+    """
+    across, along = gradient
+    first, mixed, last = inverse
+    lever = np.array((first * across + mixed * along, mixed * across + last * along))  # M^-1 d
+    # B M^-1 d = -step^T d, as M is symmetric.
+    w = np.array((across + step[0, 0] * across + step[1, 0] * along, step[0, 1] * across + step[1, 1] * along - along))
+    scaled = w / (softness + across * lever[0] + along * lever[1])
+    step -= lever[:, None] * scaled
+    for part, (a, b) in zip(correction, ((0, 0), (0, 1), (1, 1)), strict=True):
+        part -= w[a] * scaled[b]
+
+
+def _stiffen(inverse: tuple[Complex, Complex, Complex], gradient: Real, softness: Complex, part: slice) -> None:
+    """Make M^-1 the inverse of M + c c^T / softness, in place, for a part of the harmonics (Sherman and Morrison)."""
+    across, along = gradient[0], -gradient[1]
+    first, mixed, last = (entry[part] for entry in inverse)
+    lever = (first * across + mixed * along, mixed * across + last * along)  # M^-1 c
+    scale = 1.0 / (softness + across * lever[0] + along * lever[1])
+    for entry, (a, b) in zip(inverse, ((0, 0), (0, 1), (1, 1)), strict=True):
+        entry[part] -= scale * lever[a] * lever[b]

@@ -12,10 +12,12 @@ from rubfric.mechanics.block.contact import Contact, full_contact, solve_contact
 from rubfric.mechanics.small.response import HarmonicResponse, respond
 from rubfric.mechanics.steady.refinement import SHORTFALL, refined
 from rubfric.mechanics.steady.resolution import Resolution, needed
-from rubfric.mechanics.steady.solution import Friction, SteadySolution
+from rubfric.mechanics.steady.solution import Friction, SteadySolution, fold_scene
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.layer import full_contact_pressure, layer_compliance, westergaard_contact_fraction
-from rubfric.rubber.pruning import Folding, fold_scene
+from rubfric.mechanics.theory.limits import near_crest
+from rubfric.road.road import fourier_series
+from rubfric.rubber.pruning import Folding
 from rubfric.scene.scene import Scene
 
 # The search for a mesh starts at this many columns and doubles until this many nodes touch.
@@ -45,7 +47,7 @@ class SmallSolution(SteadySolution):
     @property
     def frequencies(self) -> Real:
         """Angular frequencies n k v, rad/s, of the harmonics that take part, shape (n,)."""
-        return self.response.harmonics * self.scene.road.excitation_frequency(self.scene.velocity)
+        return self.block.wavenumbers[self.response.harmonics] * self.scene.velocity
 
     @property
     def compression(self) -> float:
@@ -61,8 +63,8 @@ class SmallSolution(SteadySolution):
 def solve_small(scene: Scene, decision: Decision) -> SmallSolution:
     """Slide a block steadily over its scale of the road.
 
-    Full contact needs one harmonic and no contact solve; otherwise a closed-form layer scouts the contact. The mesh
-    follows from it, and is refined as ``rubfric.mechanics.steady.refinement`` says.
+    Full contact needs the harmonics of the road and no contact solve; otherwise a closed-form layer scouts the
+    contact. The mesh follows from it, and is refined as ``rubfric.mechanics.steady.refinement`` says.
 
     Raises
     ------
@@ -100,7 +102,7 @@ class SmallSolver:
         """Return the solution of the complementarity problem."""
         scene, columns = self.scene, resolution.columns
         block = resolution.block(scene)
-        folding = fold_scene(scene, block.harmonics[1:])
+        folding = fold_scene(scene, block.wavenumbers[1:])
         response = respond(block, folding.material, scene.velocity, block.harmonics[1:])
         spectrum = np.concatenate(([0.0], response.compliance))
         profile = scene.road.height(block.column_positions)
@@ -113,17 +115,18 @@ class SmallSolver:
         return self._solution(block, folding, response, contact, surface)
 
     def _full(self, resolution: Resolution) -> SmallSolution | None:
-        """Return the solution in full contact, which needs the first harmonic only, or None."""
+        """Return the solution in full contact, where the surface has the harmonics of the road only, or None."""
         scene, block = self.scene, resolution.block(self.scene)
-        folding = fold_scene(scene, np.array([1]))
-        response = respond(block, folding.material, scene.velocity, np.array([1]))
+        harmonics, surface = fourier_series(scene.road)
+        folding = fold_scene(scene, block.wavenumbers[harmonics])
+        response = respond(block, folding.material, scene.velocity, harmonics)
         spectrum = np.zeros(len(block.harmonics), dtype=complex)
-        spectrum[1] = response.compliance[0]
+        spectrum[harmonics] = response.compliance
         contact = full_contact(spectrum, scene.road.height(block.column_positions), scene.pressure)
         if contact is None:
             return None
-        self._history += (f"{block.columns} columns: full contact, one harmonic, no contact solve",)
-        return self._solution(block, folding, response, contact, np.array([-0.5j * scene.road.amplitude]))
+        self._history += (f"{block.columns} columns: full contact, no contact solve",)
+        return self._solution(block, folding, response, contact, surface)
 
     def _solution(
         self, block: Block, folding: Folding, response: HarmonicResponse, contact: Contact, surface: Complex
@@ -156,7 +159,7 @@ def _friction(scene: Scene, block: Block, response: HarmonicResponse, contact: C
     The former is the stress power of the block, by virtual work.
     """
     pressure = np.fft.rfft(contact.pressure)[response.harmonics] / block.columns
-    wavenumber = response.harmonics * scene.road.wavenumber
+    wavenumber = block.wavenumbers[response.harmonics]
     power = float(np.sum(2.0 * wavenumber * (pressure.conj() * 1j * surface).real))
     slope = scene.road.slope(block.column_positions)
     return Friction(power / scene.pressure, float(np.mean(contact.pressure * slope)) / scene.pressure)
@@ -171,12 +174,11 @@ def scout(scene: Scene, filling: float) -> tuple[Flags, int]:
     road = scene.road
     columns, iterations = _SCOUT_COLUMNS, 0
     guess = _FIRST_GUESS * float(westergaard_contact_fraction(scene.pressure / filling))
-    from_crest = np.abs((np.arange(columns) / columns + 0.25) % 1.0 - 0.5)  # in wavelengths
-    touching = from_crest <= 0.5 * guess
+    touching = near_crest(columns, guess)
     while True:
-        harmonics = np.arange(1, columns // 2 + 1)
-        compliance = layer_compliance(scene.material, road, scene.velocity, scene.height, scene.plane, harmonics)
-        profile = road.height(road.wavelength / columns * np.arange(columns))
+        wavenumber = 2.0 * np.pi / road.period * np.arange(1, columns // 2 + 1)
+        compliance = layer_compliance(scene.material, wavenumber, scene.velocity, scene.height, scene.plane)
+        profile = road.height(road.period / columns * np.arange(columns))
         spectrum = np.concatenate(([0.0], compliance))
         contact = solve_contact(spectrum, profile, scene.pressure, _carry(touching, columns), scene.name)
         iterations += contact.iterations

@@ -39,7 +39,7 @@ class Resolution:
         """Mesh the block of a scene."""
         numerics = scene.numerics
         return Block.graded(
-            scene.road.wavelength,
+            scene.road.period,
             scene.height,
             self.columns,
             scene.plane,

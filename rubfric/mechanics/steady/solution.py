@@ -12,7 +12,7 @@ from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.block.contact import Contact
 from rubfric.mechanics.steady.energies import ROUND_OFF, disagreement
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.rubber.pruning import Folding
+from rubfric.rubber.pruning import Folding, fold
 from rubfric.scene.scene import Scene
 
 
@@ -50,6 +50,18 @@ class OnMesh:
     growth: float
     contact_nodes: int
     friction: Friction
+
+
+def fold_scene(scene: Scene, wavenumbers: Real) -> Folding:
+    """Fold the branches that a scene does not need, within its accuracy.
+
+    Parameters
+    ----------
+    scene : Scene
+    wavenumbers : ndarray, shape (n,)
+        Those that take part, 1/mm, none of them zero.
+    """
+    return fold(scene.material, wavenumbers * scene.velocity, scene.numerics.folding * scene.numerics.accuracy)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +114,7 @@ class SteadySolution(ABC):
     @property
     def frequencies(self) -> Real:
         """Angular frequencies n k v, rad/s, of all harmonics of the mesh but the mean, shape (columns // 2,)."""
-        return self.block.harmonics[1:] * self.scene.road.excitation_frequency(self.scene.velocity)
+        return self.block.wavenumbers[1:] * self.scene.velocity
 
     @property
     def surface_position(self) -> Real:

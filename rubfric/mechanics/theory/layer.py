@@ -31,30 +31,32 @@ def layer_factor(depth: ArrayLike) -> Real:
     return np.where(q < 1e-3, series, np.sinh(q) * np.cosh(q) - q) / np.cosh(q) ** 2
 
 
-def layer_compliance(
-    material: Material, road: SineScale, velocity: float, height: float, plane: str, harmonics: ArrayLike
-) -> Complex:
-    """Return surface displacement over pressure, mm/MPa, of a layer that slides steadily, for each harmonic.
-
-    Harmonic n has wavenumber n k and frequency n k v: C_n = 2 / (n k E*(n k v) f(n k H)).
+def layer_compliance(material: Material, wavenumber: ArrayLike, velocity: float, height: float, plane: str) -> Complex:
+    """Return surface displacement over pressure of a layer that slides steadily: C(k) = 2 / (k E*(k v) f(k H)).
 
     Parameters
     ----------
-    height : float
-        H, mm.
+    material : Material
+    wavenumber : array_like, shape (...)
+        k, 1/mm, positive.
     velocity : float
         v, mm/s.
-    harmonics : array_like of int, shape (n,)
-        All at least 1.
+    height : float
+        H, mm.
+    plane : {"stress", "strain"}
+
+    Returns
+    -------
+    ndarray of complex, shape (...)
+        mm/MPa.
     """
-    wavenumber = np.asarray(harmonics, dtype=float) * road.wavenumber
-    modulus = material.plane_modulus(wavenumber * velocity, plane)
-    return 2.0 / (wavenumber * modulus * layer_factor(wavenumber * height))
+    k = np.asarray(wavenumber, dtype=float)
+    return 2.0 / (k * material.plane_modulus(k * velocity, plane) * layer_factor(k * height))
 
 
 def full_contact_pressure(material: Material, road: SineScale, velocity: float, height: float, plane: str) -> float:
     """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2."""
-    compliance = layer_compliance(material, road, velocity, height, plane, [1])[0]
+    compliance = layer_compliance(material, road.wavenumber, velocity, height, plane)
     return float(road.amplitude / abs(compliance))
 
 
@@ -62,7 +64,7 @@ def full_contact_friction(
     material: Material, road: SineScale, velocity: float, pressure: float, height: float, plane: str
 ) -> float:
     """Return mu = f a² k² Im E*(k v) / (4 p), valid from ``full_contact_pressure`` on."""
-    compliance = layer_compliance(material, road, velocity, height, plane, [1])[0]
+    compliance = layer_compliance(material, road.wavenumber, velocity, height, plane)
     return float(road.amplitude * road.steepest_slope * (1.0 / compliance).imag / (2.0 * pressure))
 
 

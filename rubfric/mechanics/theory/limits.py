@@ -1,4 +1,4 @@
-"""What a mesh can resolve: not too light a contact, and not a block pressed to next to nothing.
+"""What can be solved: not too light a contact, no block pressed to next to nothing, no rubber without digits left.
 
 Friction of a few surface nodes is a number, but no prediction: the three routes to it may still agree by chance, so
 that their difference alone does not show it.
@@ -22,6 +22,9 @@ _LEAST_HEIGHT = 0.1
 # Contact that a half-space has at the excitation frequency is at least that of the block, whose finer waves are stiffer
 # still; this margin covers what finite strain and a flat block add.
 _MARGIN = 2.0
+# Largest bulk modulus over shear modulus: far beyond any rubber, and far below the inverse of double precision. In
+# finite strain forces balance to about 1e-18 of it (measured), of which the tolerance must stay clear.
+_LARGEST_RATIO, _RATIO_PER_TOLERANCE = 1e8, 1e16
 
 
 def fewest_nodes(scene: Scene) -> int:
@@ -41,14 +44,51 @@ def near_crest(columns: int, fraction: float) -> Flags:
     return from_crest <= max(0.5 * fraction, 0.5 / columns)
 
 
-def require_resolvable(scene: Scene, columns: int, way_out: str) -> None:
+def largest_poissons_ratio(scene: Scene, finite: bool) -> float:
+    """Return the largest Poisson's ratio that a scene can be solved with, (3 r - 2) / (6 r + 2) with r = K / G.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain, where r is at most 1e16 times ``numerics.tolerance``.
+    """
+    ratio = min(_LARGEST_RATIO, _RATIO_PER_TOLERANCE * scene.numerics.tolerance) if finite else _LARGEST_RATIO
+    return round((3.0 * ratio - 2.0) / (6.0 * ratio + 2.0), 12)
+
+
+def require_digits(scene: Scene, finite: bool) -> None:
+    """Refuse a rubber so nearly incompressible that round-off of its bulk modulus would reach the results.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+
+    Raises
+    ------
+    InvalidInput
+        With the largest Poisson's ratio that is possible.
+    """
+    given, largest = scene.material.poissons_ratio, largest_poissons_ratio(scene, finite)
+    if given > largest:
+        where = f"finite strain at numerics.tolerance {scene.numerics.tolerance:g}" if finite else "small strain"
+        key = f"rubbers.{scene.material.name}.poissons_ratio"
+        raise InvalidInput(
+            f"{key} is {given:.15g}, but must be at most {largest:.12g} in {where}: "
+            "so nearly incompressible a rubber leaves too few digits of double precision"
+        )
+
+
+def require_resolvable(scene: Scene, columns: int, remedy: str) -> None:
     """Refuse a scene whose contact has too few nodes on any mesh.
 
     Parameters
     ----------
     columns : int
         Of the finest mesh.
-    way_out : str
+    remedy : str
         What the reader may do instead.
 
     Raises
@@ -62,7 +102,7 @@ def require_resolvable(scene: Scene, columns: int, way_out: str) -> None:
     lightest = filling * math.sin(0.5 * math.pi * fewest / (_MARGIN * columns)) ** 2
     raise InvalidInput(
         f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at least {lightest:.2g} MPa: "
-        f"lighter contacts have fewer than {fewest} surface nodes on the finest mesh, of {columns} columns; {way_out}"
+        f"lighter contacts have fewer than {fewest} surface nodes on the finest mesh, of {columns} columns; {remedy}"
     )
 
 
@@ -79,7 +119,7 @@ def require_height(scene: Scene) -> None:
         heaviest = pressing(scene.material, _LEAST_HEIGHT, scene.plane)
         raise InvalidInput(
             f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at most {heaviest:.3g} MPa: it leaves "
-            f"{left:.2%} of the height of the relaxed block, and less than {_LEAST_HEIGHT:.0%} is no rubber any more"
+            f"{left:.2%} of the height of the relaxed block; less than {_LEAST_HEIGHT:.0%} is outside the model's range"
         )
 
 
@@ -98,7 +138,7 @@ def require_columns(scene: Scene, columns: int, fewest: float) -> None:
         )
 
 
-def require_resolved(scene: Scene, touching: Flags, steps: int, way_out: str) -> None:
+def require_resolved(scene: Scene, touching: Flags, steps: int, remedy: str) -> None:
     """Refuse a contact that has too few nodes.
 
     Parameters
@@ -107,7 +147,7 @@ def require_resolved(scene: Scene, touching: Flags, steps: int, way_out: str) ->
         Surface nodes in contact.
     steps : int
         Steps taken to find them.
-    way_out : str
+    remedy : str
         What the reader may do besides raising the pressure.
 
     Raises
@@ -121,5 +161,5 @@ def require_resolved(scene: Scene, touching: Flags, steps: int, way_out: str) ->
             steps,
             count,
             f"number of surface nodes in contact, out of {len(touching)},",
-            f"at least {fewest} make a prediction: raise the pressure; {way_out}",
+            f"at least {fewest} make a prediction: raise the pressure; {remedy}",
         )

@@ -10,9 +10,8 @@ import xarray as xr
 
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.studies.paper.claims import CLAIMS
-from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note
+from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note, rig_evidence, rig_note
 from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
-from rubfric.studies.paper.rigevidence import rig_evidence, rig_note
 from rubfric.studies.paper.verdicts import claims_table, evidence_table
 
 

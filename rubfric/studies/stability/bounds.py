@@ -7,7 +7,6 @@ frictionless; the first law.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +14,7 @@ import xarray as xr
 
 from rubfric.mechanics.march.result import Transient
 from rubfric.results.warnings import below_noise_warning
+from rubfric.road.sine import SineScale
 
 # Share of the load, of the amplitude or of the energy turned over by which a bound may be missed: a solver's tolerance.
 _SLACK = 1e-4
@@ -67,9 +67,11 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
     routes = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
     power, lost, contact = (float(result[name]) for name in routes)
     floor, closure = float(result["friction_resolution"]), float(result["energy_closure"])
-    slope = result.attrs["amplitude"] * result.attrs["wavenumber"]
+    road = SineScale(result.attrs["amplitude"], result.attrs["wavenumber"])
+    slope = road.steepest_slope
     pressure, gap = result["contact_pressure"].values, result["gap"].values
-    amplitude = max(result.attrs["amplitude"], _FLAT * 2.0 * math.pi / result.attrs["wavenumber"])
+    amplitude = max(road.amplitude, _FLAT * road.wavelength)
+    least_gap = _least_gap(result, road)
     carried = float(abs(pressure.mean() / result.attrs["pressure"] - 1.0))
     both = (pressure > _TOUCHING * pressure.max()) & (gap > _TOUCHING * amplitude)
     unfinished = [str(name) for name, values in result.variables.items() if _not_finite(values.values)]
@@ -80,7 +82,7 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
         (max(power, lost, contact) <= slope * (1.0 + most_closure) + floor, f"friction exceeds the slope, {slope:.3g}"),
         (pressure.min() >= 0.0, "contact pressure is negative"),
         (gap.min() >= 0.0, "a gap is negative"),
-        (_least_gap(result) >= -_SLACK * amplitude, f"the surface is {-_least_gap(result):.2g} mm inside the road"),
+        (least_gap >= -_SLACK * amplitude, f"the surface is {-least_gap:.2g} mm inside the road"),
         (not both.any(), "pressure acts across a gap"),
         (carried <= _BALANCE, f"the contact carries {carried:.2g} more or less than the load"),
         (result["strain_energy_density"].values.min() >= 0.0, "strain energy is negative"),
@@ -92,15 +94,14 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
     return Verdict((power, lost, contact), closure, floor, broken, remarks)
 
 
-def _least_gap(result: xr.Dataset) -> float:
+def _least_gap(result: xr.Dataset, road: SineScale) -> float:
     """Return the smallest height of the deformed surface above the road at the output nodes, mm."""
     nodes = np.flatnonzero(result["mesh_node_y"].values == 0.0)
     place = result["mesh_node_x"].values[nodes] + result["displacement_x"].values[nodes]
     height = result["displacement_y"].values[nodes]
     if not int(result["finite_strain"]):  # small strain neglects horizontal displacement in contact
         place = result["mesh_node_x"].values[nodes]
-    road = result.attrs["amplitude"] * np.sin(result.attrs["wavenumber"] * place)
-    return float((height - road).min())
+    return float((height - road.height(place)).min())
 
 
 def judge_march(found: Transient, most_closure: float) -> Verdict:

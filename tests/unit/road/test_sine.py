@@ -24,11 +24,13 @@ def test_height_is_a_sine_with_crest_and_trough_at_the_quarters() -> None:
     np.testing.assert_allclose(scale.height([0.0, 0.25, 0.5, 0.75, 1.0]), [0.0, 0.25, 0.0, -0.25, 0.0], atol=1e-12)
 
 
-def test_slope_is_the_derivative_of_the_height() -> None:
+def test_slope_and_curvature_are_derivatives_of_the_height() -> None:
     scale = SineScale(0.015, 35.0)
     position, step = np.linspace(0.0, scale.wavelength, 41), 1e-6
     difference = (scale.height(position + step) - scale.height(position - step)) / (2.0 * step)
     np.testing.assert_allclose(scale.slope(position), difference, atol=1e-9)
+    difference = (scale.slope(position + step) - scale.slope(position - step)) / (2.0 * step)
+    np.testing.assert_allclose(scale.curvature(position), difference, atol=1e-7)
 
 
 def test_road_repeats_after_a_wavelength(paper_road: tuple[SineScale, ...]) -> None:

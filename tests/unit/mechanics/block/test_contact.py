@@ -22,7 +22,7 @@ HEIGHT = 0.75 * ROAD.wavelength
 def spectrum(material: Material, nodes: int, velocity: float = 300.0) -> Complex:
     """Return the compliance of a layer, mm/MPa; of a sliding one it is not symmetric."""
     harmonics = np.arange(1, nodes // 2 + 1)
-    return np.append(0.0, layer_compliance(material, ROAD, velocity, HEIGHT, "strain", harmonics))
+    return np.append(0.0, layer_compliance(material, ROAD.wavenumber * harmonics, velocity, HEIGHT, "strain"))
 
 
 def sine(nodes: int) -> Real:

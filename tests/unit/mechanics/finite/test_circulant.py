@@ -38,7 +38,7 @@ def test_step_of_a_pressed_and_sheared_block_is_found_exactly(
     finite = coarse(plane, rubber, columns, dilatation=dilatation)
     fields, step = uniform(finite, 0.6, 0.3, 1.2), random_step(finite, rng)
     circulant = averaged(finite, fields)
-    found = circulant.solve(circulant.load(*response(finite, fields, step)), np.zeros((2, columns)))
+    found = circulant.solve(circulant.right_side(*response(finite, fields, step)), np.zeros((2, columns)))
     np.testing.assert_allclose(found.displacement, step.displacement, atol=1e-9 * np.abs(step.displacement).max())
     np.testing.assert_allclose(found.log_thickness, step.log_thickness, atol=1e-9)
     np.testing.assert_allclose(found.volume, step.volume, atol=1e-9)
@@ -55,7 +55,7 @@ def test_pressure_of_the_road_turns_with_the_surface(plane: str, rubber: Materia
     forces[0, 0] += pressure * lift
     forces[1, 0] -= pressure * aside
     circulant = averaged(finite, fields, pressure)
-    found = circulant.solve(circulant.load(forces, thickness, excess), np.zeros((2, finite.block.columns)))
+    found = circulant.solve(circulant.right_side(forces, thickness, excess), np.zeros((2, finite.block.columns)))
     np.testing.assert_allclose(found.displacement, step.displacement, atol=1e-9 * np.abs(step.displacement).max())
 
 
@@ -68,9 +68,9 @@ def test_surface_is_that_of_the_solution(
     finite = coarse(plane, rubber, dilatation=dilatation)
     fields = uniform(finite, 0.6, 0.3, 1.2).moved(random_step(finite, rng, 0.1))
     circulant = averaged(finite, fields)
-    load = circulant.load(*response(finite, fields, random_step(finite, rng)))
-    solved = circulant.solve(load, np.zeros((2, finite.block.columns))).displacement[:, 0]
-    np.testing.assert_allclose(circulant.surface(load), solved, atol=1e-12 * np.abs(solved).max())
+    right = circulant.right_side(*response(finite, fields, random_step(finite, rng)))
+    solved = circulant.solve(right, np.zeros((2, finite.block.columns))).displacement[:, 0]
+    np.testing.assert_allclose(circulant.surface(right), solved, atol=1e-12 * np.abs(solved).max())
 
 
 @PLANES
@@ -79,7 +79,7 @@ def test_compliance_is_the_surface_under_forces_on_it(plane: str, rubber: Materi
     finite = coarse(plane, rubber)
     circulant = averaged(finite, uniform(finite, 0.6, 0.3, 1.2))
     rest = finite.at_rest()
-    nothing = circulant.load(rest.displacement, rest.log_thickness, rest.volume - 1.0)
+    nothing = circulant.right_side(rest.displacement, rest.log_thickness, rest.volume - 1.0)
     forces = rng.standard_normal((2, finite.block.columns))
     surface = circulant.solve(nothing, forces).displacement[:, 0]
     spectrum = np.einsum("abn,bn->an", circulant.compliance, np.fft.rfft(forces))
@@ -95,8 +95,8 @@ def test_solutions_have_a_top_moved_as_a_whole_and_a_mean_surface_in_its_place(
     finite = coarse(plane, rubber)
     circulant = averaged(finite, flat(finite, 2.0))
     rest = finite.at_rest()
-    load = circulant.load(rng.standard_normal(rest.displacement.shape), rest.log_thickness, rest.volume - 1.0)
-    found = circulant.solve(load, rng.standard_normal((2, finite.block.columns))).displacement
+    right = circulant.right_side(rng.standard_normal(rest.displacement.shape), rest.log_thickness, rest.volume - 1.0)
+    found = circulant.solve(right, rng.standard_normal((2, finite.block.columns))).displacement
     largest = np.abs(found).max()
     assert np.ptp(found[0, -1]) <= 1e-12 * largest
     np.testing.assert_allclose(found[:, 0].mean(axis=-1), 0.0, atol=1e-12 * largest)
@@ -144,6 +144,6 @@ def test_rough_block_is_solved_nearly(plane: str, rng: np.random.Generator) -> N
     wave = 0.03 / WAVENUMBER * np.sin(WAVENUMBER * finite.block.column_positions)
     fields.displacement[1] += wave * np.exp(-WAVENUMBER * finite.block.row_positions)[:, None]
     circulant, step = averaged(finite, fields), random_step(finite, rng)
-    found = circulant.solve(circulant.load(*response(finite, fields, step)), np.zeros((2, finite.block.columns)))
+    found = circulant.solve(circulant.right_side(*response(finite, fields, step)), np.zeros((2, finite.block.columns)))
     missed = np.linalg.norm(found.displacement - step.displacement) / np.linalg.norm(step.displacement)
     assert 1e-6 < missed < 0.3

@@ -15,8 +15,8 @@ from finite_fields import (
     coarse,
     everywhere,
     flat,
+    load,
     random_step,
-    road,
     sliding,
 )
 from numpy.typing import NDArray
@@ -26,9 +26,10 @@ from rubfric.mechanics.block.contact import Convolution, pivot
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Linearised, SlidingContact, SlopedSurface
+from rubfric.mechanics.finite.contact import Linearised, Load, SlidingContact, SlopedSurface
 from rubfric.mechanics.finite.law import Inverted
 from rubfric.mechanics.finite.newton import Solved, newton
+from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
 
 Real = NDArray[np.float64]
@@ -47,7 +48,7 @@ def solved(plane: str, rubber: Material, pressure: float) -> tuple[SlidingContac
     """Return a converged contact."""
     problem = sliding(coarse(plane, rubber))
     start = flat(problem.finite, pressure)
-    return problem, newton(problem, start, road(pressure), everywhere(problem.finite), 1e-10)
+    return problem, newton(problem, start, load(pressure), everywhere(problem.finite), 1e-10)
 
 
 def sloped(rng: np.random.Generator, plane: str = "strain") -> SlopedSurface:
@@ -82,21 +83,18 @@ def test_sloped_surface_yields_along_its_normals(rng: np.random.Generator) -> No
     circulant, slope = averaged(problem, flat(problem.finite, 1.0)), 0.5 * rng.standard_normal(16)
     width, pressure, rest = problem.finite.block.column_width, rng.random(16), problem.finite.at_rest()
     normal = np.stack((-slope, np.ones(16)))
-    nothing = circulant.load(rest.displacement, rest.log_thickness, rest.volume - 1.0)
+    nothing = circulant.right_side(rest.displacement, rest.log_thickness, rest.volume - 1.0)
     moved = circulant.solve(nothing, normal * pressure * width).displacement[:, 0]
     expected = SlopedSurface(circulant.compliance, slope, width).deflection(pressure)
     np.testing.assert_allclose((normal * moved).sum(axis=0), expected, atol=1e-12 * np.abs(expected).max())
 
 
-def test_road_has_slope_and_curvature() -> None:
-    place, step = np.linspace(0.0, 0.2, 7), 1e-6
-    waves = road(1.0)
-    ahead, behind = place + step, place - step
-    np.testing.assert_allclose(waves.height(place), AMPLITUDE * np.sin(WAVENUMBER * place), rtol=1e-12)
-    numeric = (waves.height(ahead) - waves.height(behind)) / (2.0 * step)
-    np.testing.assert_allclose(waves.slope(place), numeric, atol=1e-8)
-    numeric = (waves.slope(ahead) - waves.slope(behind)) / (2.0 * step)
-    np.testing.assert_allclose(waves.curvature(place), numeric, atol=1e-6)
+def test_road_goes_past_and_may_be_raised_in_part() -> None:
+    place, road = np.linspace(0.0, 0.2, 7), SineScale(AMPLITUDE, WAVENUMBER)
+    moved = Load(road, 1.0, offset=0.03, share=0.25)
+    np.testing.assert_array_equal(moved.height(place), 0.25 * road.height(place + 0.03))
+    np.testing.assert_array_equal(moved.slope(place), 0.25 * road.slope(place + 0.03))
+    np.testing.assert_array_equal(moved.curvature(place), 0.25 * road.curvature(place + 0.03))
 
 
 @PLANES
@@ -104,7 +102,7 @@ def test_road_has_slope_and_curvature() -> None:
 def test_block_pressed_on_a_flat_road_stays(plane: str, rubber: Material) -> None:
     problem = sliding(coarse(plane, rubber))
     fields = flat(problem.finite, 2.0)
-    correction = problem.correct(averaged(problem, fields), fields, road(2.0, 0.0), everywhere(problem.finite))
+    correction = problem.correct(averaged(problem, fields), fields, load(2.0, 0.0), everywhere(problem.finite))
     assert problem.size(correction.step) < 1e-9
     np.testing.assert_allclose(correction.contact.pressure, 2.0, rtol=1e-9)
 
@@ -114,7 +112,7 @@ def test_block_pressed_on_a_flat_road_stays(plane: str, rubber: Material) -> Non
 def test_each_correction_is_complementary_and_carries_the_load(plane: str, pressure: float) -> None:
     problem = sliding(coarse(plane))
     fields = flat(problem.finite, pressure)
-    correction = problem.correct(averaged(problem, fields), fields, road(pressure), everywhere(problem.finite))
+    correction = problem.correct(averaged(problem, fields), fields, load(pressure), everywhere(problem.finite))
     contact = correction.contact
     assert contact.pressure.min() >= 0.0
     assert contact.gap.min() >= 0.0
@@ -125,7 +123,7 @@ def test_each_correction_is_complementary_and_carries_the_load(plane: str, press
 @PLANES
 def test_correction_steps_onto_the_linearised_road(plane: str) -> None:
     problem = sliding(coarse(plane))
-    fields, waves = flat(problem.finite, 0.5), road(0.5)
+    fields, waves = flat(problem.finite, 0.5), load(0.5)
     correction = problem.correct(averaged(problem, fields), fields, waves, everywhere(problem.finite))
     moved = fields.moved(correction.step).displacement[:, 0]
     tangent = waves.height(correction.position) + correction.slope * correction.step.displacement[0, 0]
@@ -139,7 +137,7 @@ def test_correction_steps_onto_the_linearised_road(plane: str) -> None:
 def test_fixed_point_is_in_balance_and_in_contact(plane: str, rubber: Material, pressure: float) -> None:
     problem, found = solved(plane, rubber, pressure)
     finite, correction = problem.finite, found.correction
-    contact, waves = correction.contact, road(pressure)
+    contact, waves = correction.contact, load(pressure)
     assert contact.touching.all() == (pressure > 1.0)
     np.testing.assert_allclose(correction.state.volume_excess, 0.0, atol=1e-8)
     carried = pressure * finite.block.column_width
@@ -163,14 +161,14 @@ def test_linearised_is_the_derivative_at_fixed_contact(
     problem, found = solved(plane, rubber, pressure)
     finite, share = problem.finite, 1e-6
     circulant = averaged(problem, found.fields, pressure)
-    correction = problem.correct(circulant, found.fields, road(pressure), found.correction.contact.touching)
+    correction = problem.correct(circulant, found.fields, load(pressure), found.correction.contact.touching)
     stiffness = finite.stiffness(found.fields, correction.state)
-    linear = Linearised(problem, circulant, stiffness, correction, road(pressure))
+    linear = Linearised(problem, circulant, stiffness, correction, load(pressure))
     step = random_step(finite, rng)
 
     def left(sign: float) -> Fields:
         moved = found.fields.moved(step, sign * share)
-        there = problem.correct(circulant, moved, road(pressure), correction.contact.touching)
+        there = problem.correct(circulant, moved, load(pressure), correction.contact.touching)
         np.testing.assert_array_equal(there.contact.touching, correction.contact.touching)
         return there.step
 
@@ -202,7 +200,7 @@ def test_fields_turned_inside_out_are_refused() -> None:
     circulant, inverted = averaged(problem, problem.finite.at_rest()), problem.finite.at_rest()
     inverted.displacement[1] = -2.0 * problem.finite.block.row_positions[:, None]
     with pytest.raises(Inverted):
-        problem.correct(circulant, inverted, road(1.0), everywhere(problem.finite))
+        problem.correct(circulant, inverted, load(1.0), everywhere(problem.finite))
 
 
 def test_contact_without_a_solution_carries_the_label(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -210,4 +208,4 @@ def test_contact_without_a_solution_carries_the_label(monkeypatch: pytest.Monkey
     fields = flat(problem.finite, 0.1)
     monkeypatch.setattr(slidingcontact, "pivot", lambda *given: pivot(*given[:5], most_steps=1))
     with pytest.raises(NotConverged, match=r"^some scene: not converged after 1 steps, number of surface nodes"):
-        problem.correct(averaged(problem, fields), fields, road(0.1), everywhere(problem.finite))
+        problem.correct(averaged(problem, fields), fields, load(0.1), everywhere(problem.finite))

@@ -7,18 +7,18 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from finite_fields import AMPLITUDE, coarse, everywhere, flat, road, sliding
+from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
 
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite import continuation
-from rubfric.mechanics.finite.contact import Road, SlidingContact
+from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.finite.continuation import History, Start, attempt, reach
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
 
 PRESSURE, TOLERANCE = 0.5, 1e-8
-ROAD = road(PRESSURE)
+LOAD = load(PRESSURE)
 
-Stall = Callable[[Road], bool]
+Stall = Callable[[Load], bool]
 
 
 @pytest.fixture
@@ -32,17 +32,17 @@ def pressed(problem: SlidingContact) -> Start:
 
 
 @pytest.fixture
-def stalling(monkeypatch: pytest.MonkeyPatch) -> Callable[[Stall], list[Road]]:
-    """Return a function that lets Newton's method stall where told, and returns the list of roads that are tried."""
+def stalling(monkeypatch: pytest.MonkeyPatch) -> Callable[[Stall], list[Load]]:
+    """Return a function that lets Newton's method stall where told, and returns the list of loads that are tried."""
 
-    def arrange(stalls: Stall) -> list[Road]:
-        tried: list[Road] = []
+    def arrange(stalls: Stall) -> list[Load]:
+        tried: list[Load] = []
 
-        def sometimes(problem: SlidingContact, start: object, road: Road, *rest: object) -> Solved:
-            tried.append(road)
-            if stalls(road):
+        def sometimes(problem: SlidingContact, start: object, load: Load, *rest: object) -> Solved:
+            tried.append(load)
+            if stalls(load):
                 raise Stalled("no luck", 2, 9, 0.5)
-            return newton(problem, start, road, *rest)
+            return newton(problem, start, load, *rest)
 
         monkeypatch.setattr(continuation, "newton", sometimes)
         return tried
@@ -53,7 +53,7 @@ def stalling(monkeypatch: pytest.MonkeyPatch) -> Callable[[Stall], list[Road]]:
 def only_the_first(number: int) -> Stall:
     left = [number]
 
-    def stalls(_: Road) -> bool:
+    def stalls(_: Load) -> bool:
         left[0] -= 1
         return left[0] >= 0
 
@@ -62,7 +62,7 @@ def only_the_first(number: int) -> Stall:
 
 def test_easy_contact_is_reached_at_once(problem: SlidingContact, pressed: Start) -> None:
     history = History()
-    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     assert problem.size(solved.correction.step) <= TOLERANCE
     (line,) = history.lines
     assert line == (f"16 columns, at once: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
@@ -70,54 +70,54 @@ def test_easy_contact_is_reached_at_once(problem: SlidingContact, pressed: Start
 
 
 def test_road_is_raised_where_newton_stalls(
-    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
-    expected = newton(problem, pressed.fields, ROAD, pressed.touching, TOLERANCE)
+    expected = newton(problem, pressed.fields, LOAD, pressed.touching, TOLERANCE)
     tried, history = stalling(only_the_first(1)), History()
-    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
-    amplitudes = [road.amplitude for road in tried[1:]]
-    assert tried[0] == tried[-1] == ROAD
-    assert len(amplitudes) > 1
-    assert np.all(np.diff(amplitudes) > 0.0)
-    assert {road.pressure for road in tried} == {PRESSURE}
+    shares = [load.share for load in tried[1:]]
+    assert tried[0] == tried[-1] == LOAD
+    assert len(shares) > 1
+    assert np.all(np.diff(shares) > 0.0)
+    assert {load.pressure for load in tried} == {PRESSURE}
     assert history.lines[0] == "16 columns, at once: left after 2 Newton steps, no luck"
     assert all(re.match(r"16 columns, road at [\d.]+: converged in \d+ ", line) for line in history.lines[1:])
     assert history.lines[-1].startswith("16 columns, road at 1: ")
 
 
 def test_steps_are_shortened_where_they_stall(
-    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
     tried, history = stalling(only_the_first(3)), History()
-    reach(problem, pressed, ROAD, TOLERANCE, history)
-    assert tried[1].amplitude > tried[2].amplitude > tried[3].amplitude
+    reach(problem, pressed, LOAD, TOLERANCE, history)
+    assert tried[1].share > tried[2].share > tried[3].share
     assert [" left after 2 Newton steps, no luck" in line for line in history.lines[:4]] == [True, True, True, False]
-    assert tried[-1] == ROAD
+    assert tried[-1] == LOAD
 
 
 def test_load_is_raised_where_the_road_cannot_be(
-    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
-    expected = newton(problem, pressed.fields, ROAD, pressed.touching, TOLERANCE)
+    expected = newton(problem, pressed.fields, LOAD, pressed.touching, TOLERANCE)
     loads: list[float] = []
 
-    def not_before_lighter(road: Road) -> bool:
-        loads.append(road.pressure)
-        return road.pressure == PRESSURE and min(loads) == PRESSURE
+    def not_before_lighter(load: Load) -> bool:
+        loads.append(load.pressure)
+        return load.pressure == PRESSURE and min(loads) == PRESSURE
 
     tried, history = stalling(not_before_lighter), History()
-    solved = reach(problem, pressed, ROAD, TOLERANCE, history)
+    solved = reach(problem, pressed, LOAD, TOLERANCE, history)
     np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
-    lighter = [road for road in tried if road.pressure < PRESSURE]
-    assert lighter[0].amplitude < AMPLITUDE
-    assert any(road.amplitude == AMPLITUDE for road in lighter)
-    assert tried[-1] == ROAD
+    lighter = [load for load in tried if load.pressure < PRESSURE]
+    assert lighter[0].share < 1.0
+    assert any(load.share == 1.0 for load in lighter)
+    assert tried[-1] == LOAD
     assert history.lines[-1].startswith("16 columns, load at 1: converged in ")
 
 
 def test_all_ways_stalled_is_an_error_with_the_scenes_name(
-    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
     tried, history = stalling(lambda _: True), History()
     sentence = (
@@ -125,27 +125,27 @@ def test_all_ways_stalled_is_an_error_with_the_scenes_name(
         r"the road may be too steep, or the load too heavy, for the rubber$"
     )
     with pytest.raises(NotConverged, match=sentence) as caught:
-        reach(problem, pressed, ROAD, TOLERANCE, history)
+        reach(problem, pressed, LOAD, TOLERANCE, history)
     assert caught.value.step == history.steps == 2 * len(tried)
     assert history.krylov == 9 * len(tried)
     assert len(history.lines) == len(tried)
-    assert {road.pressure == PRESSURE for road in tried} == {True, False}
+    assert {load.pressure == PRESSURE for load in tried} == {True, False}
 
 
 def test_attempt_records_a_failure_and_passes_it_on(
-    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Road]]
+    problem: SlidingContact, pressed: Start, stalling: Callable[[Stall], list[Load]]
 ) -> None:
     stalling(lambda _: True)
     history = History()
     with pytest.raises(Stalled, match="no luck"):
-        attempt(problem, pressed, ROAD, TOLERANCE, history, "a try")
+        attempt(problem, pressed, LOAD, TOLERANCE, history, "a try")
     assert history.lines == ["a try: left after 2 Newton steps, no luck"]
     assert (history.steps, history.krylov) == (2, 9)
 
 
 def test_history_adds_up(problem: SlidingContact, pressed: Start) -> None:
     history = History()
-    first, second = (attempt(problem, pressed, ROAD, tolerance, history, "a try") for tolerance in (1e-2, 1e-6))
+    first, second = (attempt(problem, pressed, LOAD, tolerance, history, "a try") for tolerance in (1e-2, 1e-6))
     assert history.steps == first.steps + second.steps
     assert history.krylov == first.krylov + second.krylov
     assert len(history.lines) == 2

@@ -11,14 +11,13 @@ from finite_fields import ELASTIC, PROPORTIONAL, RUBBER, WAVENUMBER, WIDTH, coar
 from numpy.typing import NDArray
 
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
-from rubfric.mechanics.finite.branches import excess
 from rubfric.mechanics.finite.energy import (
     branch_tensors,
     dissipated_and_stored,
     evaluate_finite,
     nodal_density,
 )
-from rubfric.mechanics.finite.law import Deformation
+from rubfric.mechanics.finite.law import Deformation, excess
 from rubfric.mechanics.finite.steady import FiniteSolution, solve_finite
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.theory.compression import pressed, stored_energy

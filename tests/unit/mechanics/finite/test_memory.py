@@ -64,7 +64,7 @@ def test_circulant_of_a_step_is_exact_in_a_uniform_block_and_holds_its_top(
     step.displacement[0, -1] = 0.0
     change, excess = finite.change(stiffness, step)
     circulant = Circulant(finite, stiffness, 0.0)
-    load = circulant.load(finite.forces(change[:4]), change[4:], excess)
-    found = circulant.solve(load, np.zeros((2, finite.block.columns)))
+    right = circulant.right_side(finite.forces(change[:4]), change[4:], excess)
+    found = circulant.solve(right, np.zeros((2, finite.block.columns)))
     np.testing.assert_allclose(found.displacement, step.displacement, atol=1e-9 * np.abs(step.displacement).max())
-    np.testing.assert_allclose(circulant.surface(load), step.displacement[:, 0], atol=1e-10)
+    np.testing.assert_allclose(circulant.surface(right), step.displacement[:, 0], atol=1e-10)

@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from finite_fields import AMPLITUDE, ELASTIC, PROPORTIONAL, RUBBER, coarse, everywhere, flat, road, sliding
+from finite_fields import AMPLITUDE, ELASTIC, PROPORTIONAL, RUBBER, coarse, everywhere, flat, load, sliding
 
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.contact import SlidingContact
@@ -19,7 +19,7 @@ RUBBERS = pytest.mark.parametrize("rubber", [RUBBER, PROPORTIONAL, ELASTIC], ids
 
 def solve(problem: SlidingContact, pressure: float = 0.5, tolerance: float = 1e-9) -> Solved:
     start = flat(problem.finite, pressure)
-    return newton(problem, start, road(pressure), everywhere(problem.finite), tolerance)
+    return newton(problem, start, load(pressure), everywhere(problem.finite), tolerance)
 
 
 @PLANES
@@ -53,7 +53,7 @@ def test_residuals_are_those_of_the_correction(plane: str) -> None:
 def test_solution_is_its_own_start(plane: str) -> None:
     problem = sliding(coarse(plane))
     solved = solve(problem)
-    again = newton(problem, solved.fields, road(0.5), solved.correction.contact.touching, 1e-8)
+    again = newton(problem, solved.fields, load(0.5), solved.correction.contact.touching, 1e-8)
     assert again.steps == again.krylov == 0
     assert again.fields is solved.fields
 
@@ -72,7 +72,7 @@ def test_first_guess_of_the_contact_does_not_matter(plane: str) -> None:
     problem = sliding(coarse(plane))
     expected = solve(problem)
     one = np.arange(problem.finite.block.columns) == 4  # the crest
-    found = newton(problem, flat(problem.finite, 0.5), road(0.5), one, 1e-9)
+    found = newton(problem, flat(problem.finite, 0.5), load(0.5), one, 1e-9)
     np.testing.assert_allclose(found.fields.displacement, expected.fields.displacement, atol=1e-7 * AMPLITUDE)
 
 
@@ -81,7 +81,7 @@ def test_start_is_left_alone(plane: str) -> None:
     problem = sliding(coarse(plane))
     start, touching = flat(problem.finite, 0.5), everywhere(problem.finite)
     before = start.displacement.copy(), start.log_thickness.copy(), start.volume.copy()
-    newton(problem, start, road(0.5), touching, 1e-6)
+    newton(problem, start, load(0.5), touching, 1e-6)
     np.testing.assert_array_equal(start.displacement, before[0])
     np.testing.assert_array_equal(start.log_thickness, before[1])
     np.testing.assert_array_equal(start.volume, before[2])
@@ -103,7 +103,7 @@ def test_start_turned_inside_out_stalls_at_once() -> None:
     start = problem.finite.at_rest()
     start.displacement[1] = -2.0 * problem.finite.block.row_positions[:, None]
     with pytest.raises(Stalled, match="smallest det F is -1") as caught:
-        newton(problem, start, road(1.0), everywhere(problem.finite), 1e-6)
+        newton(problem, start, load(1.0), everywhere(problem.finite), 1e-6)
     assert caught.value.steps == caught.value.krylov == 0
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from begin_march import begin
 from finite_fields import ELASTIC, PROPORTIONAL, RUBBER
 
 from rubfric.errors import BrokenResult, NotConverged
-from rubfric.mechanics.march.march import COLUMNS, FRESH, March, wavelength_means
+from rubfric.marching import begin
+from rubfric.mechanics.march.march import FRESH, March, Record, wavelength_means
 from rubfric.mechanics.march.step import Outcome
 from rubfric.rubber.material import Material
 from rubfric.scene.numerics import Numerics
@@ -62,7 +62,7 @@ def marched(scene: Scene, procedure: Procedure = QUICK) -> March:
 def test_everything_is_recorded(soft_scene: SceneMaker, kinematics: str, plane: str) -> None:
     march = marched(soft_scene(kinematics, plane))
     records = march.records
-    assert tuple(records) == COLUMNS
+    assert tuple(records) == Record._fields
     assert {len(column) for column in records.values()} == {march.position} == {8 + 4 + 8 + 32}
     slides = records["phase"] == PHASES.index("slide")
     np.testing.assert_allclose(np.diff(records["slid"][slides]), march.scene.road.wavelength / 16)
@@ -169,7 +169,7 @@ def test_steps_that_find_no_contact_are_halved(soft_scene: SceneMaker, monkeypat
 
     def advance(duration: float, offset: float, pressure: float) -> Outcome:
         if duration > 0.3 * length:
-            raise NotConverged(march.scene.name, 1, 0.5, "residual")
+            raise NotConverged("step", 1, 0.5, "distance from balance and contact")
         durations.append(duration)
         return outcome()
 
@@ -186,7 +186,7 @@ def test_steps_that_halving_does_not_help_raise(soft_scene: SceneMaker, monkeypa
     march = begin(soft_scene("finite"), QUICK)
 
     def advance(*_: float) -> Outcome:
-        raise NotConverged(march.scene.name, 1, 0.5, "residual")
+        raise NotConverged("step", 1, 0.5, "distance from balance and contact")
 
     monkeypatch.setattr(march._model, "advance", advance)
     with pytest.raises(

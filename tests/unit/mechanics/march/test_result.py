@@ -33,7 +33,7 @@ def test_means_are_those_of_whole_wavelengths_at_full_speed(paper_scene: SceneMa
         assert found.means(route)[-1] == pytest.approx(found.means()[-1], rel=0.1)
 
 
-def test_progress_is_told(paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_is_reported(paper_scene: SceneMaker, monkeypatch: pytest.MonkeyPatch) -> None:
     lines: list[str] = []
     monkeypatch.setattr(marching, "_SILENCE", 0.0)
     march(paper_scene(10.0, 0.5), QUICK, progress=lines.append)

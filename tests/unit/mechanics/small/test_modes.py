@@ -51,3 +51,10 @@ def test_every_mode_is_stable_and_every_branch_a_share_of_it(plane: str) -> None
     ratio = PROPORTIONAL.branch_shear_moduli / PROPORTIONAL.long_term_shear_modulus
     relaxed = modes.modulus(PROPORTIONAL.long_term_shear_modulus, PROPORTIONAL.long_term_bulk_modulus)
     np.testing.assert_allclose(branches, np.outer(ratio, relaxed), rtol=1e-12)
+
+
+def test_modes_without_dilatation_have_none_to_round_off() -> None:
+    modes = surface_modes(block("strain"))
+    assert np.all((modes.bulk == 0.0) | (modes.bulk > 1e-12))
+    one, other = (modes.surface((modes.reach / modes.modulus(1.0, bulk)).astype(complex))[1:] for bulk in (1e8, 1e11))
+    np.testing.assert_allclose(one, other, rtol=1e-6)
