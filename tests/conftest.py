@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -64,19 +63,22 @@ def perturb_contact_solves(seed: int) -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the folders of ``THOROUGH``; begin with what takes longest: those of ``TOGETHER``, then verification."""
     for item in items:
-        if item.path.parent.name in THOROUGH:
+        if folder(item.nodeid) in THOROUGH:
             item.add_marker("thorough")
     order = {name: place for place, name in enumerate((*TOGETHER, "verification"))}
-    items.sort(key=lambda item: order.get(item.path.parent.name, len(order)))
+    items.sort(key=lambda item: order.get(folder(item.nodeid), len(order)))
+
+
+def folder(nodeid: str) -> str:
+    """Return the folder of ``tests`` that a test is in."""
+    return nodeid.removeprefix("tests/").partition("/")[0]
 
 
 class _ByFolder(LoadScopeScheduling):  # type: ignore[misc]
     """Gives workers a folder of ``TOGETHER`` whole, and of all others file by file."""
 
     def _split_scope(self, nodeid: str) -> str:
-        file = nodeid.partition("::")[0]
-        folder = Path(file).parent.name
-        return folder if folder in TOGETHER else file
+        return folder(nodeid) if folder(nodeid) in TOGETHER else nodeid.partition("::")[0]
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> _ByFolder:

@@ -222,7 +222,8 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
 def _reserve(path: Path, size: int) -> None:
     """Allocate a file of ``size`` bytes: OSError with the system's errno where there is no room for it."""
-    with path.open("wb") as stream:
+    with path.open("wb", buffering=0) as stream:
+        stream.write(b"\0")  # a device takes no reservation
         if hasattr(os, "posix_fallocate"):
             os.posix_fallocate(stream.fileno(), 0, size)
         else:  # macOS
