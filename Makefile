@@ -42,6 +42,7 @@ test-all: $(VENV)/.ready
 check: $(VENV)/.ready
 	ruff check .
 	ruff format --check .
+	lint-imports --no-cache
 	mypy
 	MYPYPATH=tests/support mypy tests/cluster tests/support/on_cluster.py
 	snakefmt --check Snakefile workflow
