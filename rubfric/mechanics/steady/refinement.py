@@ -13,8 +13,9 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from rubfric.errors import InvalidInput
 from rubfric.mechanics.steady.error import ORDER, allowance, discretisation_error
-from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
+from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, most_columns, needed
 from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
 from rubfric.scene.scene import Scene
 
@@ -55,6 +56,8 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
 
     Raises
     ------
+    InvalidInput
+        Where rows grow so slowly that a mesh in small strain would have too many cells.
     NotConverged
         From ``solver``.
     """
@@ -63,7 +66,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
     resolution = needed(scene, solution.contact_fraction, solver.finite)
     most = most_columns(scene, solver.finite)
     while True:
-        solution = _solved(solver, resolution, meshes)
+        solution = _solved(scene, solver, resolution, meshes)
         if solution.resolved or resolution.columns >= most:
             break
         resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, solver.finite)
@@ -76,7 +79,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         finer = next(_choices(scene, resolution, factor, solver.finite), None)
         if finer is None:
             break
-        resolution, solution = finer, _solved(solver, finer, meshes)
+        resolution, solution = finer, _solved(scene, solver, finer, meshes)
     return dataclasses.replace(solution, meshes=tuple(meshes))
 
 
@@ -101,17 +104,22 @@ def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> So
         Gets what was solved.
     """
     resolution = solver.first()
-    solution = _solved(solver, resolution, meshes)
+    solution = _solved(scene, solver, resolution, meshes)
     while True:
         coarse = needed(scene, solution.contact_fraction, solver.finite).coarser(scene, solver.finite)
         if coarse.columns <= _NEAR * resolution.columns:
             return solution
         stride = resolution.finer(scene, _STRIDE, solver.finite)
         resolution = coarse if coarse.columns <= stride.columns else Resolution(stride.columns, coarse.growth)
-        solution = _solved(solver, resolution, meshes)
+        solution = _solved(scene, solver, resolution, meshes)
 
 
-def _solved(solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+    if not (solver.finite or resolution.affordable(scene, False)):
+        raise InvalidInput(
+            f"numerics.row_growth of {scene.name} is {scene.numerics.row_growth:g}, but must be larger: with "
+            f"{resolution.columns} columns a mesh has more than {MOST_SMALL_CELLS:,} cells"
+        )
     solution = solver.solve(resolution)
     touching = int(np.count_nonzero(solution.contact.touching))
     block = solution.block

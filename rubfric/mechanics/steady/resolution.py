@@ -12,8 +12,8 @@ from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Columns, and cells, beyond which a mesh in finite strain takes more than three gigabytes.
-MOST_FINITE, MOST_CELLS = 4096, 450_000
+# Columns, and cells, beyond which a mesh in finite strain takes more than three gigabytes; cells in small strain.
+MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # A coarse mesh has no fewer columns, and its rows grow no faster.
@@ -57,7 +57,7 @@ class Resolution:
         finite : bool
             In finite strain.
         """
-        return not finite or self.columns * self.block(scene).rows <= MOST_CELLS
+        return self.columns * self.block(scene).rows <= (MOST_CELLS if finite else MOST_SMALL_CELLS)
 
     def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
         """Return the mesh with cells smaller by ``factor`` in both directions.

@@ -7,7 +7,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from rubfric.errors import InvalidInput
+from rubfric.mechanics.small.steady import SmallSolver
+from rubfric.mechanics.steady.refinement import refined
 from rubfric.mechanics.steady.resolution import COLUMN_STEP, Resolution, fit, most_columns, needed
+from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
@@ -119,3 +123,10 @@ def test_block_is_that_of_the_scene(paper_scene: SceneMaker, dilatation: str) ->
     heights = np.diff(block.row_positions)
     assert heights[0] == pytest.approx(0.5 * block.column_width, rel=1e-9)
     assert 1.2 < heights[1] / heights[0] <= 1.25
+
+
+def test_more_cells_than_memory_holds_are_refused_before_they_are_meshed_finely(paper_scene: SceneMaker) -> None:
+    numerics = Numerics(row_growth=1.00001, columns_min=32768, columns_max=32768)
+    scene = paper_scene(100.0, 0.5, kinematics="small", numerics=numerics)
+    with pytest.raises(InvalidInput, match=r"^numerics.row_growth of .* is 1.00001, but must be larger: with 16384 "):
+        refined(scene, SmallSolver(scene, Decision("small", 0.0, "")))
