@@ -9,19 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
 
-from rubfric.arrays import Flags, Real
+from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
+from rubfric.mechanics.finite.direction import Direction, newton_direction
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
 # A direction that took more Krylov iterations is worth a new average of the tangent, by default.
 _WORTH = 6
-_MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
 # Share of the decrease of a full linear step that a step must bring.
 _DECREASE = 0.1
@@ -140,15 +139,16 @@ def _iterate(
         if len(residuals) > _MOST_STEPS:
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
         stiffness = problem.finite.stiffness(fields, correction.state)
-        linear = Linearised(problem, circulant, stiffness, correction, load)
-        direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
-        krylov += count
-        ahead = _advance(problem, circulant, fields, direction, load, correction, max(residuals[-_MEMORY:]))
+        found = newton_direction(
+            problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals)
+        )
+        krylov += found.krylov
+        ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))
         if ahead is None:
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
         fields, correction = ahead
         touching = correction.contact.touching
-        if count > worth and problem.size(correction.step) > tolerance:
+        if found.most > worth and problem.size(correction.step) > tolerance:
             circulant = None
 
 
@@ -159,28 +159,12 @@ def _forcing(residuals: list[float]) -> float:
     return min(_LOOSEST, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
 
 
-def _direction(problem: SlidingContact, linear: Linearised, right: Fields, forcing: float) -> tuple[Fields, int]:
-    """Return the Newton direction and how often the tangent was applied."""
-    vector = problem.pack(right)
-    applied = 0
-
-    def apply(packed: Real) -> Real:
-        nonlocal applied
-        applied += 1
-        return problem.pack(linear(problem.unpack(packed)))
-
-    operator = LinearOperator((vector.size, vector.size), matvec=apply, dtype=float)
-    solution, _ = gmres(operator, vector, rtol=forcing, restart=_MOST_KRYLOV, maxiter=1)
-    return problem.unpack(solution), applied
-
-
 def _advance(
     problem: SlidingContact,
     circulant: Circulant,
     fields: Fields,
-    direction: Fields,
+    direction: Direction,
     load: Load,
-    correction: Correction,
     size: float,
 ) -> tuple[Fields, Correction] | None:
     """Return the fields after a step along a direction, as long as brings u - T(u) below ``size``.
@@ -189,9 +173,9 @@ def _advance(
     """
     share = 1.0
     while share >= _SHORTEST_STEP:
-        moved = fields.moved(direction, share)
+        moved = fields.moved(direction.step, share)
         try:
-            ahead = problem.correct(circulant, moved, load, correction.contact.touching)
+            ahead = problem.correct(circulant, moved, load, direction.touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
             pass
         else:
