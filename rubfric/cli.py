@@ -19,6 +19,7 @@ example:
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --aspect 0.75
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --accuracy 0.002
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
+  rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
 
 The rubber, the road and the numerics come from config/config.yaml, and what --config lays over it.
@@ -54,8 +55,8 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     simulate = commands.add_parser(
         "simulate",
-        help="slide one block over one scale of the road and print its friction",
-        description="Slide a rubber block, one wavelength wide, steadily over one scale of the road.",
+        help="slide one block over one scale of the road, or all at once, and print its friction",
+        description="Slide a rubber block, one period of the road wide, steadily over one scale of it or all at once.",
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -84,9 +85,23 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _scale(text: str) -> int | str:
+    """Return the number of a scale, or the word that is no number."""
+    try:
+        return int(text)
+    except ValueError:
+        return text
+
+
 def _add_scene(command: argparse.ArgumentParser) -> None:
     """Add the arguments that name a scene, the configs it comes from, and the file to write."""
-    command.add_argument("--scale", type=int, required=True, help="scale of the road, 1 being the coarsest")
+    command.add_argument(
+        "--scale",
+        type=_scale,
+        required=True,
+        metavar="N",
+        help="scale of the road, 1 being the coarsest, or all for all scales at once",
+    )
     command.add_argument("--velocity", type=float, required=True, metavar="V", help="sliding speed, mm/s")
     command.add_argument("--pressure", type=float, required=True, metavar="P", help="nominal pressure, MPa")
     command.add_argument(

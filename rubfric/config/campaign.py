@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import product
 from typing import Any
 
@@ -16,10 +17,11 @@ from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoic
 from rubfric.config.overlay import overlaid
 from rubfric.config.references import check_references, numerics_of, scale_number
 from rubfric.road.sine import SineScale
+from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 from rubfric.rules import Choice
 from rubfric.scene.numerics import Numerics
-from rubfric.scene.scene import Scene
+from rubfric.scene.scene import ALL, Scene
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,8 @@ class Campaign:
         Name of the road in use.
     road : tuple of SineScale
         Its scales, from coarse to fine.
+    phases : tuple of float
+        Phase of each, rad; it matters only where all of them are taken at once.
     plane : {"stress", "strain"}
         Plane stress or plane strain.
     kinematics : {"small", "finite", "auto"}
@@ -60,6 +64,7 @@ class Campaign:
     material: Material
     road_name: str
     road: tuple[SineScale, ...]
+    phases: tuple[float, ...]
     plane: str
     kinematics: str
     velocities: tuple[float, ...]
@@ -78,8 +83,10 @@ class Campaign:
         """Check a config whole and read it; InvalidInput says in one sentence what is wrong with it."""
         given = Config.read("", config)
         materials = {name: Material(name=name, **entry.given()) for name, entry in given.rubbers.items()}
-        roads = {name: tuple(SineScale(**scale.given()) for scale in entry) for name, entry in given.roads.items()}
-        road = roads[Choice(words=roads).check("road", given.road)]
+        roads = {name: [dict(scale) for scale in entry] for name, entry in given.roads.items()}
+        scales = roads[Choice(words=roads).check("road", given.road)]
+        phases = tuple(scale.pop("phase") for scale in scales)
+        road = tuple(SineScale(**scale) for scale in scales)
         check_references(given, len(road))
         numerics, presets = numerics_of(given)
         return cls(
@@ -87,6 +94,7 @@ class Campaign:
             material=materials[Choice(words=materials).check("rubber", given.rubber)],
             road_name=given.road,
             road=road,
+            phases=phases,
             plane=given.plane,
             kinematics=given.kinematics,
             velocities=given.grid.velocities,
@@ -103,7 +111,7 @@ class Campaign:
 
     def scene(
         self,
-        scale: int,
+        scale: int | str,
         velocity: float,
         pressure: float,
         aspect: float | None = None,
@@ -116,8 +124,8 @@ class Campaign:
 
         Parameters
         ----------
-        scale : int
-            1 for the coarsest scale of the road.
+        scale : int or "all"
+            1 for the coarsest scale of the road; or all scales at once.
         velocity : float
             mm/s.
         pressure : float
@@ -133,11 +141,12 @@ class Campaign:
         accuracy : float, optional
             Relative accuracy of friction, instead of that of the preset or of the numerics.
         """
-        index = scale_number("scale", scale, len(self.road))
+        whole = scale == ALL
+        index = ALL if whole else scale_number("scale", scale, len(self.road))
         numerics = self.presets[Choice(words=self.presets).check("preset", preset)] if preset else self.numerics
         return Scene(
             scale=index,
-            road=self.road[index - 1],
+            road=self.whole_road if whole else self.road[int(index) - 1],
             velocity=velocity,
             pressure=pressure,
             aspect=self.aspect if aspect is None else aspect,
@@ -146,6 +155,12 @@ class Campaign:
             kinematics=self.kinematics if kinematics is None else kinematics,
             numerics=numerics if accuracy is None else replace(numerics, accuracy=accuracy),
         )
+
+    @cached_property
+    def whole_road(self) -> WaveRoad:
+        """All scales of the road at once; InvalidInput where they have no common period."""
+        amplitudes, wavenumbers = zip(*((scale.amplitude, scale.wavenumber) for scale in self.road), strict=True)
+        return WaveRoad(amplitudes, wavenumbers, self.phases)
 
     @property
     def scales(self) -> range:

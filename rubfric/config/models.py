@@ -220,7 +220,16 @@ else:
             {one.name: one.default for one in fields(Material) if one.default is not MISSING},
         ),
     )
-    Scale = create_model("Scale", __base__=Entry, __doc__="A scale of a road.", **keys(SineScale, rules(SineScale)))
+    Scale = create_model(
+        "Scale",
+        __base__=Entry,
+        __doc__="A scale of a road.",
+        **keys(SineScale, rules(SineScale)),
+        phase=(
+            Annotated[float, Number("Phase; it matters where all scales are taken at once.", "rad", -1e6, 1e6)],
+            0.0,
+        ),
+    )
 
 
 class Config(Entry):

@@ -76,7 +76,7 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         inner: Any = {
             label: [item[name] for item in entry] if isinstance(entry, list) else entry[name]
             for label, entry in values.items()
-            if isinstance(entry, list) or name in entry
+            if all(name in item for item in (entry if isinstance(entry, list) else [entry]))
         }
         if below:
             yield from _keys(below, inner[""] if mark else inner, f"{at}{name}{mark}.")

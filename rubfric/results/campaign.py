@@ -16,11 +16,12 @@ from rubfric.results.dataset import CONVENTIONS, OTHER_SCENE, PAPER, load
 from rubfric.results.scalars import SCALARS, attributes
 
 AXES: dict[str, tuple[str, str]] = {
-    "scale": ("1", "scale of the road, 1 being the coarsest"),
+    "scale": ("1", "scale of the road, 1 being the coarsest; 0 is all at once"),
     "velocity": ("mm s-1", "sliding speed"),
     "pressure": ("MPa", "nominal pressure"),
     "aspect": ("1", "height of the block over its width"),
 }
+# Of all scales at once, which are scale 0, the smallest of each.
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
 _WARNINGS = "warnings"
 
@@ -110,7 +111,7 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
-            road = {name: float(stored.getncattr(name)) for name in _ROAD}
+            road = {name: float(np.min(stored.getncattr(name))) for name in _ROAD}
             other = digest is not None and stored.getncattr("scene_digest") != digest
     except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
         raise BrokenResult(f"{path} is no readable result: {error}") from error

@@ -20,6 +20,8 @@ from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.results.scalars import SCALARS, attributes, scalars
 from rubfric.results.warnings import below_noise_warning, warnings
+from rubfric.road.waves import WaveRoad
+from rubfric.scene.scene import ALL
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
@@ -184,8 +186,15 @@ def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
     attributes |= {name: getattr(scene, name) for name in units}
-    attributes |= {"amplitude": scene.road.amplitude, "wavenumber": scene.road.wavenumber}
-    attributes["units_of_attributes"] = "velocity mm s-1, pressure MPa, amplitude mm, wavenumber mm-1"
+    attributes["scale"] = 0 if scene.scale == ALL else scene.scale
+    road = {"amplitude": "mm", "wavenumber": "mm-1"}
+    if isinstance(scene.road, WaveRoad):
+        road["phase"] = "rad"
+        attributes |= {name: getattr(scene.road.waves, f"{name}s") for name in road}
+    else:
+        attributes |= {name: getattr(scene.road, name) for name in road}
+    listed = {"velocity": "mm s-1", "pressure": "MPa"} | road
+    attributes["units_of_attributes"] = ", ".join(f"{name} {unit}" for name, unit in listed.items())
     return attributes
 
 

@@ -14,7 +14,7 @@ from rubfric.mechanics.march.result import Transient
 from rubfric.results.dataset import CONVENTIONS, PAPER
 from rubfric.results.scalars import attributes
 from rubfric.scene.procedure import PHASES
-from rubfric.scene.scene import Scene
+from rubfric.scene.scene import ALL, Scene
 
 # record: (unit, long name)
 RECORDS: dict[str, tuple[str, str]] = {
@@ -100,7 +100,7 @@ def _values(march: Transient, steady_friction: float) -> dict[str, float | int]:
 
 def _memory(scene: Scene) -> float:
     """Return the memory of the slowest branch in wavelengths, tau v / lambda."""
-    return max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.wavelength
+    return max(scene.material.relaxation_times, default=0.0) * scene.velocity / scene.road.period
 
 
 def _provenance(march: Transient) -> dict[str, Any]:
@@ -119,7 +119,7 @@ def _provenance(march: Transient) -> dict[str, Any]:
         "kinematics_used": march.kinematics,
         "velocity": scene.velocity,
         "pressure": scene.pressure,
-        "scale": scene.scale,
+        "scale": 0 if scene.scale == ALL else scene.scale,
         "aspect": scene.aspect,
         "wavelength_mm": scene.road.wavelength,
         "steps_per_wavelength": march.procedure.steps_per_wavelength,

@@ -9,6 +9,7 @@ import numpy as np
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.theory.layer import excitation_frequency
 
 # name: (unit, long name); the scalars of every result, in the order in which they are shown
 SCALARS: dict[str, tuple[str, str]] = {
@@ -66,7 +67,7 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
         Of both, s.
     """
     scene, contact = solution.scene, solution.contact
-    frequency = scene.road.excitation_frequency(scene.velocity)
+    frequency = excitation_frequency(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
     return {
         "friction_coefficient": energies.stress_power,
         "friction_coefficient_dissipation": energies.dissipation,

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
 import xarray as xr
 
 _WIDTH = 34
@@ -12,8 +16,7 @@ def summary(result: xr.Dataset) -> str:
     attributes = result.attrs
     friction = float(result["friction_coefficient"])
     lines = [
-        f"{attributes['rubber']} on scale {attributes['scale']}: "
-        f"{attributes['amplitude']:g} mm sin({attributes['wavenumber']:g}/mm x), "
+        f"{attributes['rubber']} on {_road(attributes)}, "
         f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa, "
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
@@ -34,6 +37,13 @@ def summary(result: xr.Dataset) -> str:
     if warnings:
         lines += ["", *(f"Note: {line}" for line in warnings)]
     return "\n".join(lines)
+
+
+def _road(attributes: Mapping[str, Any]) -> str:
+    """Return the road of a result, in words."""
+    if "phase" in attributes:
+        return f"all {np.size(attributes['phase'])} scales at once"
+    return f"scale {attributes['scale']}: {attributes['amplitude']:g} mm sin({attributes['wavenumber']:g}/mm x)"
 
 
 def _mesh(result: xr.Dataset) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.resolution import MOST_CELLS
 from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.theory.layer import excitation_frequency
 
 # Above this share of the shear-wave speed inertia would matter; the model has none.
 _SPEED_LIMIT = 0.3
@@ -26,7 +27,7 @@ def warnings(solution: SteadySolution, closure: float) -> list[str]:
         Largest relative difference of the three friction coefficients.
     """
     scene = solution.scene
-    frequency = scene.road.excitation_frequency(scene.velocity)
+    frequency = excitation_frequency(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
     poisson = float(scene.material.effective_poissons_ratio(frequency))
     ratio = float(scene.velocity / scene.material.shear_wave_speed(frequency))
     found = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -38,6 +39,10 @@ class Road(Protocol):
         """Length after which the road repeats, mm: the width of a block."""
 
     @property
+    def wavelength(self) -> float:
+        """Of the coarsest wave, mm."""
+
+    @property
     def waves(self) -> Waves:
         """The sines that the road is a sum of."""
 
@@ -53,6 +58,11 @@ class Road(Protocol):
 
     def curvature(self, position: ArrayLike) -> Real:
         """Return s''(x), 1/mm."""
+
+
+def finest_waves(road: Road) -> int:
+    """Return how many times the finest wave of a road fits into its period."""
+    return round(float(road.waves.wavenumbers.max()) * road.period / (2.0 * math.pi))
 
 
 def fourier_series(road: Road) -> tuple[Whole, Complex]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from rubfric.arrays import Real, Whole
 from rubfric.errors import InvalidInput
+from rubfric.road.road import Road, finest_waves
 from rubfric.rules import Choice, Integer, Number, check_fields
 from rubfric.scene.numerics import MOST_COLUMNS
 from rubfric.scene.scene import Scene
@@ -82,16 +83,19 @@ class Procedure:
         check_fields(self, "procedure.")
         check_wavelengths("procedure.wavelengths", self.wavelengths, self.steps_per_wavelength)
 
+    def steps_per_period(self, road: Road) -> int:
+        """Return the steps at full speed in a period of the road: as many to each wavelength of its finest wave."""
+        return self.steps_per_wavelength * finest_waves(road)
+
     def steps(self, scene: Scene) -> Steps:
         """Return the steps for a scene."""
-        period = scene.road.wavelength / scene.velocity
+        period, steps = scene.road.period / scene.velocity, self.steps_per_period(scene.road)
         parts = []
         if self.start == "pressed":
             parts += self._pressing(scene, period)
         if self.start != "steady":
             parts += self._starting(scene, period)
-        count = self.wavelengths * self.steps_per_wavelength
-        length = period / self.steps_per_wavelength
+        count, length = self.wavelengths * steps, period / steps
         ahead = scene.velocity * length * np.arange(1.0, count + 1.0)
         begin = parts[-1].offset[-1] if parts else 0.0
         parts.append(_phase("slide", np.full(count, length), begin + ahead, np.full(count, scene.pressure)))
@@ -113,9 +117,10 @@ class Procedure:
 
     def _starting(self, scene: Scene, period: float) -> list[Steps]:
         # At half the full speed on average, in steps as long as those at full speed.
-        count = math.ceil(2.0 * self.start_share * self.steps_per_wavelength)
+        steps = self.steps_per_period(scene.road)
+        count = math.ceil(2.0 * self.start_share * steps)
         share = np.arange(1.0, count + 1.0) / count
-        length = period / self.steps_per_wavelength
+        length = period / steps
         travelled = scene.velocity * length * count * share**3 * (1.0 - 0.5 * share)
         return [_phase("start", np.full(count, length), travelled, np.full(count, scene.pressure))] if count else []
 

@@ -1,4 +1,4 @@
-"""One job: a scale of the road, a speed, a load, a block, a rubber, and the numerics to solve it with."""
+"""One job: a scale of the road or all of them at once, a speed, a load, a block, a rubber, and its numerics."""
 
 from __future__ import annotations
 
@@ -12,13 +12,29 @@ from typing import Annotated, Any
 from rubfric import checks
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
+from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import PLANES, Material
 from rubfric.rules import Choice, Integer, Number, check_fields
 from rubfric.scene.numerics import Numerics
 
 KINEMATICS = ("small", "finite", "auto")
+# The scale of a scene that slides over all scales at once.
+ALL = "all"
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
+
+
+@dataclass(frozen=True)
+class ScaleOfScene(Integer):
+    """The number of a scale, or the word for all scales at once."""
+
+    def check(self, key: str, value: Any) -> Any:
+        """Return the number, or the word."""
+        if value == ALL:
+            return value
+        if isinstance(value, str):
+            raise InvalidInput(f"{key} is {checks.shown(value)}, but must be the number of a scale, or {ALL}")
+        return super().check(key, value)
 
 
 @dataclass(frozen=True)
@@ -27,16 +43,16 @@ class Scene:
 
     Parameters
     ----------
-    scale : int
-        Number of the scale on its road, 1 being the coarsest.
-    road : SineScale
-        That scale.
+    scale : int or "all"
+        Number of the scale on its road, 1 being the coarsest; or all scales at once.
+    road : SineScale or WaveRoad
+        That scale, or the whole road. The block is one period of it wide.
     velocity : float
         Sliding speed v, mm/s.
     pressure : float
         Nominal pressure p on the top of the block, MPa.
     aspect : float
-        Height of the block over its width, one wavelength.
+        Height of the block over the wavelength, that of the coarsest wave where there are many.
     material : Material
         The rubber.
     plane : {"stress", "strain"}
@@ -47,8 +63,8 @@ class Scene:
         Small strain, finite strain, or small strain only where that is accurate enough.
     """
 
-    scale: Annotated[int, Integer(high=10**6)]
-    road: SineScale
+    scale: Annotated[int | str, ScaleOfScene(high=10**6)]
+    road: SineScale | WaveRoad
     velocity: Annotated[float, Number(unit="mm/s")]
     pressure: Annotated[float, Number(unit="MPa")]
     aspect: Annotated[float, Number()]
@@ -59,7 +75,9 @@ class Scene:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max
+        if isinstance(self.road, WaveRoad) != (self.scale == ALL):
+            raise InvalidInput(f"scale is {self.scale}, but must be {ALL} on a road of many waves, and there only")
+        flattest = COLUMNS_PER_HEIGHT / self.numerics.columns_max * self.road.period / self.road.wavelength
         if self.aspect < flattest:
             raise InvalidInput(
                 f"aspect is {self.aspect:g}, but must be at least {flattest:.3g}: so flat a block needs more columns "
@@ -68,13 +86,14 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``; one scene of a rubber and a road, one name."""
+        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``, or ``all_v100_...``; one scene, one name."""
+        scale = self.scale if self.scale == ALL else f"scale{self.scale}"
         numbers = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
-        return "scale{}_v{}_p{}_aspect{}_{}".format(self.scale, *numbers, self.plane)
+        return "{}_v{}_p{}_aspect{}_{}".format(scale, *numbers, self.plane)
 
     @property
     def height(self) -> float:
-        """H = aspect x wavelength, mm."""
+        """H = aspect x wavelength, that of the coarsest wave, mm."""
         return self.aspect * self.road.wavelength
 
     def parameters(self) -> dict[str, Any]:
@@ -86,7 +105,8 @@ class Scene:
     def from_parameters(cls, parameters: Mapping[str, Any]) -> Scene:
         """Build the scene that ``parameters`` describes; InvalidInput names what is wrong."""
         given = dict(_known("scene parameters", parameters, cls))
-        road = SineScale(**_known("road", given.pop("road"), SineScale))
+        kind = WaveRoad if given["scale"] == ALL else SineScale
+        road = kind(**_known("road", given.pop("road"), kind))
         material = Material(**_known("material", given.pop("material"), Material))
         numerics = Numerics(**_known("numerics", given.pop("numerics"), Numerics))
         return cls(road=road, material=material, numerics=numerics, **given)
@@ -98,7 +118,7 @@ class Scene:
 
 
 @lru_cache(maxsize=256)
-def _plain(part: SineScale | Material | Numerics) -> dict[str, Any]:
+def _plain(part: SineScale | WaveRoad | Material | Numerics) -> dict[str, Any]:
     """Return the plain values of what thousands of scenes share; not to be changed."""
     return json.loads(json.dumps(asdict(part)))
 

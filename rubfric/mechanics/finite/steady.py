@@ -14,11 +14,11 @@ from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.prolongation import prolong
 from rubfric.mechanics.steady.energies import ROUND_OFF
 from rubfric.mechanics.steady.refinement import SHORTFALL, refined
-from rubfric.mechanics.steady.resolution import Resolution, fit, needed
+from rubfric.mechanics.steady.resolution import Resolution, count_spots, fit, needed, wanted_nodes
 from rubfric.mechanics.steady.solution import Friction, SteadySolution, fold_scene
 from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.mechanics.theory.limits import estimated_fraction, near_crest
+from rubfric.mechanics.theory.limits import estimated_fraction, near_crests
 from rubfric.scene.scene import Scene
 
 # The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
@@ -123,12 +123,12 @@ class FiniteSolver:
         problem = SlidingContact(finite, measures(scene.road), scene.name)
         solved = self._warm(problem)
         if solved is None:
-            near = near_crest(block.columns, _FIRST_GUESS * estimated_fraction(scene))
+            near = near_crests(scene.road, block.columns, _FIRST_GUESS * estimated_fraction(scene))
             flat = Start(finite.pressed(scene.pressure), near)
             solved = reach(problem, flat, self._load, tolerance, log)
         self._before = finite, solved
         contact = solved.correction.contact
-        wanted = (1.0 - SHORTFALL) * min(scene.numerics.finite_contact_nodes, block.columns)
+        wanted = min(wanted_nodes(scene, self.finite, count_spots(scene, contact.touching)), block.columns)
         return FiniteSolution(
             scene=scene,
             decision=self.decision,
@@ -138,7 +138,7 @@ class FiniteSolver:
             contact=contact,
             iterations=log.steps,
             krylov=log.krylov,
-            resolved=bool(np.count_nonzero(contact.touching) >= wanted),
+            resolved=bool(np.count_nonzero(contact.touching) >= (1.0 - SHORTFALL) * wanted),
             history=tuple(log.lines),
             finite=finite,
             fields=solved.fields,

@@ -148,7 +148,7 @@ class March:
         if self.position == len(self._steps.duration):
             return True
         slid = self._slid
-        whole = slid > 0 and slid % self.procedure.steps_per_wavelength == 0
+        whole = slid > 0 and slid % self.procedure.steps_per_period(self.scene.road) == 0
         return whole and self.procedure.until_saturated and self.saturation.reached
 
     @property
@@ -160,7 +160,9 @@ class March:
     def saturation(self) -> Saturation:
         """Whether friction has settled, and on what."""
         friction = np.array([record.friction_contact for record in self._records])
-        means = wavelength_means(friction[len(friction) - max(self._slid, 0) :], self.procedure.steps_per_wavelength)
+        means = wavelength_means(
+            friction[len(friction) - max(self._slid, 0) :], self.procedure.steps_per_period(self.scene.road)
+        )
         return judge(self.scene, means, self.procedure.saturation)
 
     def step(self) -> None:

@@ -53,7 +53,7 @@ class Transient:
 
     def means(self, route: str = "friction_contact") -> Real:
         """Return friction averaged over each whole wavelength at full speed, shape (wavelengths,)."""
-        return wavelength_means(self.records[route][self.sliding], self.procedure.steps_per_wavelength)
+        return wavelength_means(self.records[route][self.sliding], self.procedure.steps_per_period(self.scene.road))
 
     @property
     def imbalance(self) -> float:

@@ -146,16 +146,16 @@ def respond(block: Block, material: Material, velocity: float, harmonics: Whole)
         above, count = active[row + 1], active[row]
         xx, xy, yy = chain.own[:, row, :count]
         step, correction = _eliminate(chain.upward[:, row, :above], inverse)
-        gradient, softness = np.array((across, along / heights[row])), 1.0 / (dilatation * heights[row])
+        gradient, stiffness = np.array((across, along / heights[row])), dilatation * heights[row]
         if not block.pointwise:
-            _add_mean_dilatation(step, correction, inverse, gradient[:, :above], softness[:above])
+            _add_mean_dilatation(step, correction, inverse, gradient[:, :above], stiffness[:above])
         transfer.append(step)
         for entry, part in zip((xx, xy, yy), correction, strict=True):
             entry[:above] -= part
         determinant = xx * yy - xy * xy
         inverse = (yy / determinant, -xy / determinant, xx / determinant)
         if not block.pointwise:  # for the harmonics that have faded above, the row above is at rest
-            _stiffen(inverse, gradient[:, above:count], softness[above:count], slice(above, count))
+            _stiffen(inverse, gradient[:, above:count], stiffness[above:count], slice(above, count))
     _, coupling, compliance = inverse
     # A pressure p over one column acts on its node as the force p times the column's width.
     return HarmonicResponse(harmonics, compliance * block.column_width, coupling / compliance, transfer[::-1])
@@ -224,7 +224,7 @@ def _add_mean_dilatation(
     correction: tuple[Complex, Complex, Complex],
     inverse: tuple[Complex, Complex, Complex],
     gradient: Real,
-    softness: Complex,
+    stiffness: Complex,
 ) -> None:
     """Add to the results of ``_eliminate``, in place, what the mean dilatation of the cells adds.
 
@@ -236,25 +236,25 @@ def _add_mean_dilatation(
         xx, xy, yy of B M^-1 B^T, from which w w^T / s is taken, and of M^-1.
     gradient : ndarray, shape (2, m)
         d, times the width of a column; c is d with its y component turned.
-    softness : ndarray of complex, shape (m,)
-        1 / (L* h), h being the height of the cells over their width.
+    stiffness : ndarray of complex, shape (m,)
+        L* h, MPa, zero for a Poisson's ratio of 0 in plane stress; h is the height of the cells over their width.
     """
     across, along = gradient
     first, mixed, last = inverse
     lever = np.array((first * across + mixed * along, mixed * across + last * along))  # M^-1 d
     # B M^-1 d = -step^T d, as M is symmetric.
     w = np.array((across + step[0, 0] * across + step[1, 0] * along, step[0, 1] * across + step[1, 1] * along - along))
-    scaled = w / (softness + across * lever[0] + along * lever[1])
+    scaled = w * stiffness / (1.0 + stiffness * (across * lever[0] + along * lever[1]))
     step -= lever[:, None] * scaled
     for part, (a, b) in zip(correction, ((0, 0), (0, 1), (1, 1)), strict=True):
         part -= w[a] * scaled[b]
 
 
-def _stiffen(inverse: tuple[Complex, Complex, Complex], gradient: Real, softness: Complex, part: slice) -> None:
-    """Make M^-1 the inverse of M + c c^T / softness, in place, for a part of the harmonics (Sherman and Morrison)."""
+def _stiffen(inverse: tuple[Complex, Complex, Complex], gradient: Real, stiffness: Complex, part: slice) -> None:
+    """Make M^-1 the inverse of M + stiffness c c^T, in place, for a part of the harmonics (Sherman and Morrison)."""
     across, along = gradient[0], -gradient[1]
     first, mixed, last = (entry[part] for entry in inverse)
     lever = (first * across + mixed * along, mixed * across + last * along)  # M^-1 c
-    scale = 1.0 / (softness + across * lever[0] + along * lever[1])
+    scale = stiffness / (1.0 + stiffness * (across * lever[0] + along * lever[1]))
     for entry, (a, b) in zip(inverse, ((0, 0), (0, 1), (1, 1)), strict=True):
         entry[part] -= scale * lever[a] * lever[b]

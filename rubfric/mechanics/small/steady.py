@@ -11,18 +11,20 @@ from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.block.contact import Contact, full_contact, solve_contact
 from rubfric.mechanics.small.response import HarmonicResponse, respond
 from rubfric.mechanics.steady.refinement import SHORTFALL, refined
-from rubfric.mechanics.steady.resolution import Resolution, needed
+from rubfric.mechanics.steady.resolution import Resolution, count_spots, fit, needed, wanted_nodes
 from rubfric.mechanics.steady.solution import Friction, SteadySolution, fold_scene
 from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.mechanics.theory.layer import full_contact_pressure, layer_compliance, westergaard_contact_fraction
-from rubfric.mechanics.theory.limits import near_crest
-from rubfric.road.road import fourier_series
+from rubfric.mechanics.theory.layer import full_contact_pressure, layer_compliance
+from rubfric.mechanics.theory.limits import estimated_fraction, near_crests
+from rubfric.road.road import finest_waves, fourier_series
 from rubfric.rubber.pruning import Folding
 from rubfric.scene.scene import Scene
 
 # The search for a mesh starts at this many columns and doubles until this many nodes touch.
 _SCOUT_COLUMNS = 64
 _SCOUT_NODES = 16
+# On a road of many waves it starts at so many columns to the finest.
+_PER_WAVE = 8
 # The first guess of the contact: that of an elastic half-space, this much wider.
 _FIRST_GUESS = 1.2
 # Full contact is not looked for below this share of the pressure that fills the road under a closed-form layer.
@@ -87,16 +89,19 @@ class SmallSolver:
     def __init__(self, scene: Scene, decision: Decision) -> None:
         self.scene = scene
         self.decision = decision
-        self._filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-        self._may_fill = scene.pressure >= _FULL_CONTACT_FROM * self._filling
+        filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
+        self._may_fill = scene.pressure >= _FULL_CONTACT_FROM * filling
         self._touching: Flags | None = None
         self._iterations = 0
         self._history: tuple[str, ...] = ()
 
     def first(self) -> Resolution:
         """Return the mesh to begin with, coarser than the one that the contact seems to need."""
-        fraction = 1.0 if self._may_fill else float(np.mean(self._scouted()))
-        return needed(self.scene, fraction, self.finite).coarser(self.scene, self.finite)
+        if self._may_fill:
+            return needed(self.scene, 1.0, self.finite).coarser(self.scene, self.finite)
+        touching = self._scouted()
+        wanted = needed(self.scene, float(np.mean(touching)), self.finite, count_spots(self.scene, touching))
+        return wanted.coarser(self.scene, self.finite)
 
     def solve(self, resolution: Resolution) -> SmallSolution:
         """Return the solution on a mesh."""
@@ -136,7 +141,8 @@ class SmallSolver:
     def _solution(
         self, block: Block, folding: Folding, response: HarmonicResponse, contact: Contact, surface: Complex
     ) -> SmallSolution:
-        wanted = (1.0 - SHORTFALL) * min(self.scene.numerics.contact_nodes, block.columns)
+        touching, scene = contact.touching, self.scene
+        wanted = min(wanted_nodes(scene, self.finite, count_spots(scene, touching)), block.columns)
         return SmallSolution(
             scene=self.scene,
             decision=self.decision,
@@ -145,7 +151,7 @@ class SmallSolver:
             friction=_friction(self.scene, block, response, contact, surface),
             contact=contact,
             iterations=self._iterations,
-            resolved=bool(np.count_nonzero(contact.touching) >= wanted),
+            resolved=bool(np.count_nonzero(touching) >= (1.0 - SHORTFALL) * wanted),
             history=self._history,
             response=response,
             surface=surface,
@@ -154,7 +160,7 @@ class SmallSolver:
     def _scouted(self) -> Flags:
         """Return the contact found last, or that of a closed-form layer."""
         if self._touching is None:
-            self._touching, self._iterations = scout(self.scene, self._filling)
+            self._touching, self._iterations = scout(self.scene)
         return self._touching
 
 
@@ -170,22 +176,14 @@ def _friction(scene: Scene, block: Block, response: HarmonicResponse, contact: C
     return Friction(power / scene.pressure, float(np.mean(contact.pressure * slope)) / scene.pressure)
 
 
-def scout(scene: Scene, filling: float) -> tuple[Flags, int]:
+def scout(scene: Scene) -> tuple[Flags, int]:
     """Return a first guess of the contact, and the steps it took.
 
     The layer's closed-form compliance stands in for the block; each mesh starts from the one before.
-    ``filling`` is the pressure, MPa, that fills the road under it.
-
-    Parameters
-    ----------
-    scene : Scene
-    filling : float
-        Pressure that fills the road under the layer, MPa.
     """
     road = scene.road
-    columns, iterations = _SCOUT_COLUMNS, 0
-    guess = _FIRST_GUESS * float(westergaard_contact_fraction(scene.pressure / filling))
-    touching = near_crest(columns, guess)
+    columns, iterations = fit(scene, max(_SCOUT_COLUMNS, _PER_WAVE * finest_waves(road)), False), 0
+    touching = near_crests(road, columns, _FIRST_GUESS * estimated_fraction(scene))
     while True:
         wavenumber = 2.0 * np.pi / road.period * np.arange(1, columns // 2 + 1)
         compliance = layer_compliance(scene.material, wavenumber, scene.velocity, scene.height, scene.plane)

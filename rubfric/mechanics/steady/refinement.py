@@ -15,7 +15,7 @@ import numpy as np
 
 from rubfric.errors import InvalidInput
 from rubfric.mechanics.steady.error import ORDER, allowance, discretisation_error
-from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, most_columns, needed
+from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, most_columns
 from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
 from rubfric.scene.scene import Scene
 
@@ -63,13 +63,13 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
     """
     meshes: list[OnMesh] = []
     solution = steps_to(scene, solver, meshes)
-    resolution = needed(scene, solution.contact_fraction, solver.finite)
+    resolution = solution.needed(solver.finite)
     most = most_columns(scene, solver.finite)
     while True:
         solution = _solved(scene, solver, resolution, meshes)
         if solution.resolved or resolution.columns >= most:
             break
-        resolution = needed(scene, (1.0 - 0.5 * SHORTFALL) * solution.contact_fraction, solver.finite)
+        resolution = solution.needed(solver.finite, 1.0 - 0.5 * SHORTFALL)
     for _ in range(scene.numerics.refinements):
         friction, error, allowed = solution.friction, discretisation_error(meshes), allowance(solution)
         helps = abs(friction.stress_power) > friction.resolution and resolution.columns < most
@@ -106,7 +106,7 @@ def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> So
     resolution = solver.first()
     solution = _solved(scene, solver, resolution, meshes)
     while True:
-        coarse = needed(scene, solution.contact_fraction, solver.finite).coarser(scene, solver.finite)
+        coarse = solution.needed(solver.finite).coarser(scene, solver.finite)
         if coarse.columns <= _NEAR * resolution.columns:
             return solution
         stride = resolution.finer(scene, _STRIDE, solver.finite)

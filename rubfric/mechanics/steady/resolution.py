@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
 from scipy.fft import next_fast_len
 
+from rubfric.arrays import Flags
 from rubfric.mechanics.block.block import Block
+from rubfric.road.road import finest_waves
 from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
@@ -16,6 +19,10 @@ COLUMN_STEP = 8
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
+# So many spots of contact together are resolved as finely as one alone.
+_SPOTS = 3
+# Fewest columns for the finest of many waves.
+_PER_WAVE = 16
 # A coarse mesh has no fewer columns, and its rows grow no faster.
 _COARSEST_COLUMNS, _COARSEST_GROWTH = 32, 2.0
 
@@ -27,7 +34,7 @@ class Resolution:
     Attributes
     ----------
     columns : int
-        Columns of cells along a wavelength.
+        Columns of cells along a period of the road.
     growth : float
         Ratio of the heights of neighbouring rows.
     """
@@ -82,12 +89,12 @@ class Resolution:
         finite : bool
             In finite strain.
         """
-        least = max(_COARSEST_COLUMNS, 0.5 * COLUMNS_PER_HEIGHT / scene.aspect)
+        least = max(_COARSEST_COLUMNS, 0.5 * _fewest_columns(scene))
         growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
         return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
 
 
-def needed(scene: Scene, fraction: float, finite: bool) -> Resolution:
+def needed(scene: Scene, fraction: float, finite: bool, spots: int = 1) -> Resolution:
     """Return the mesh that puts as many nodes as asked for into a contact of some fraction of the road.
 
     Parameters
@@ -97,12 +104,49 @@ def needed(scene: Scene, fraction: float, finite: bool) -> Resolution:
         Contact area over nominal area.
     finite : bool
         In finite strain.
+    spots : int
+        Separate places of contact.
     """
     numerics = scene.numerics
-    nodes = numerics.finite_contact_nodes if finite else numerics.contact_nodes
     least = numerics.finite_columns_min if finite else numerics.columns_min
-    columns = max(least, nodes / fraction, COLUMNS_PER_HEIGHT / scene.aspect)
+    columns = max(least, wanted_nodes(scene, finite, spots) / fraction, _fewest_columns(scene))
     return Resolution(fit(scene, columns, finite), numerics.row_growth)
+
+
+def wanted_nodes(scene: Scene, finite: bool, spots: int = 1) -> float:
+    """Return how many surface nodes the contact should have; where there are many spots, their errors average out.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    spots : int
+        Separate places of contact.
+    """
+    nodes = scene.numerics.finite_contact_nodes if finite else scene.numerics.contact_nodes
+    return nodes * max(1.0, spots / _SPOTS)
+
+
+def count_spots(scene: Scene, touching: Flags) -> int:
+    """Return in how many separate places a road is touched: on one wave in one.
+
+    Parameters
+    ----------
+    scene : Scene
+    touching : ndarray of bool, shape (columns,)
+        Surface nodes in contact.
+    """
+    if finest_waves(scene.road) == 1:
+        return 1
+    return max(1, int(np.count_nonzero(touching & ~np.roll(touching, 1))))
+
+
+def _fewest_columns(scene: Scene) -> float:
+    """Return the fewest columns that a block's shape and the finest of its road's waves ask for."""
+    road, waves = scene.road, finest_waves(scene.road)
+    by_shape = COLUMNS_PER_HEIGHT / scene.aspect * (road.period / road.wavelength)
+    return max(by_shape, _PER_WAVE * waves if waves > 1 else 0.0)
 
 
 def fit(scene: Scene, columns: float, finite: bool) -> int:

@@ -11,6 +11,7 @@ from rubfric.arrays import Real
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.block.contact import Contact
 from rubfric.mechanics.steady.energies import ROUND_OFF, disagreement
+from rubfric.mechanics.steady.resolution import Resolution, count_spots, needed
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.rubber.pruning import Folding, fold
 from rubfric.scene.scene import Scene
@@ -110,6 +111,19 @@ class SteadySolution(ABC):
     def contact_fraction(self) -> float:
         """Contact area over nominal area, dimensionless."""
         return float(np.count_nonzero(self.contact.touching)) / self.block.columns
+
+    def needed(self, finite: bool, share: float = 1.0) -> Resolution:
+        """Return the mesh that this contact needs, or a smaller one.
+
+        Parameters
+        ----------
+        finite : bool
+            In finite strain.
+        share : float
+            Of the contact fraction.
+        """
+        spots = count_spots(self.scene, self.contact.touching)
+        return needed(self.scene, share * self.contact_fraction, finite, spots)
 
     @property
     def frequencies(self) -> Real:

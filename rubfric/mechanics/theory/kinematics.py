@@ -9,7 +9,7 @@ What small strain leaves out of friction grows with four small numbers:
 
 Their weights bound what was measured on the paper's rubber and others of Poisson's ratios from 0.46 to 0.4975, at
 slopes from 0.26 to 0.6, speeds from 0.1 to 10^4 mm/s, pressures from 0.005 to 10 MPa and height-to-width ratios from
-0.25 to 1.5, in plane stress and plane strain.
+0.25 to 1.5, in plane stress and plane strain. On a road of many waves p* is the root of the sum of their squares.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rubfric.mechanics.theory.layer import full_contact_pressure, layer_factor
+from rubfric.mechanics.theory.layer import excitation_frequency, full_contact_pressure, layer_factor
 from rubfric.scene.scene import Scene
 
 # Share of the accuracy that small strain may use up; the mesh needs the rest.
@@ -63,9 +63,9 @@ def estimated_correction(scene: Scene) -> float:
     filled = pressure >= filling
     slope_squared = road.steepest_slope**2 * (1.0 if filled else pressure / filling)
     highest = pressure + filling if filled else 2.0 * math.sqrt(pressure * filling)
-    flatness = 1.0 - float(layer_factor(road.wavenumber * scene.height))
+    flatness = 1.0 - float(layer_factor(road.waves.wavenumbers.min() * scene.height))
     compression = (pressure + 2.0 * flatness * highest) / material.confined_modulus(plane)
-    frequency = road.excitation_frequency(scene.velocity)
+    frequency = excitation_frequency(material, road, scene.velocity, scene.height, plane)
     bulk = float(abs(material.complex_bulk_modulus(frequency)))
     correction = _COMPRESSION * compression + _SLOPE * slope_squared + _PRESSURE * highest / bulk
     if plane == "stress":

@@ -1,5 +1,7 @@
 """Closed forms that the simulation is verified against. Small strain; h = a sin(k x), q = k H.
 
+On a road of many waves the pressures that fill each of them add up in squares (Persson 2001, J. Chem. Phys. 115, 3840).
+
 Nothing here needs a mesh. The compliance of the layer also serves the steady solver to choose a mesh.
 """
 
@@ -9,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rubfric.arrays import Complex, Real
+from rubfric.road.road import Road
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
 
@@ -54,21 +57,60 @@ def layer_compliance(material: Material, wavenumber: ArrayLike, velocity: float,
     return 2.0 / (k * material.plane_modulus(k * velocity, plane) * layer_factor(k * height))
 
 
-def full_contact_pressure(material: Material, road: SineScale, velocity: float, height: float, plane: str) -> float:
-    """Return the lowest nominal pressure, MPa, that fills the road: f a k |E*(k v)| / 2.
+def filling_pressures(material: Material, road: Road, velocity: float, height: float, plane: str) -> Real:
+    """Return the lowest nominal pressure that fills each wave of a road by itself, MPa: f a k |E*(k v)| / 2.
 
     Parameters
     ----------
     material : Material
-    road : SineScale
+    road : Road
+    velocity : float
+        v, mm/s.
+    height : float
+        H, mm.
+    plane : {"stress", "strain"}
+
+    Returns
+    -------
+    ndarray, shape (waves,)
+    """
+    waves = road.waves
+    return waves.amplitudes / np.abs(layer_compliance(material, waves.wavenumbers, velocity, height, plane))
+
+
+def excitation_frequency(material: Material, road: Road, velocity: float, height: float, plane: str) -> float:
+    """Return k v, rad/s, of the wave that is hardest to fill: the frequency that matters most to the rubber.
+
+    Parameters
+    ----------
+    material : Material
+    road : Road
     velocity : float
         v, mm/s.
     height : float
         H, mm.
     plane : {"stress", "strain"}
     """
-    compliance = layer_compliance(material, road.wavenumber, velocity, height, plane)
-    return float(road.amplitude / abs(compliance))
+    hardest = int(np.argmax(filling_pressures(material, road, velocity, height, plane)))
+    return float(road.waves.wavenumbers[hardest]) * velocity
+
+
+def full_contact_pressure(material: Material, road: Road, velocity: float, height: float, plane: str) -> float:
+    """Return the nominal pressure, MPa, that fills a sine; of many waves the root of the sum of their squares.
+
+    The latter fills most of a road, not all of it: its measure of how far contact goes.
+
+    Parameters
+    ----------
+    material : Material
+    road : Road
+    velocity : float
+        v, mm/s.
+    height : float
+        H, mm.
+    plane : {"stress", "strain"}
+    """
+    return float(np.linalg.norm(filling_pressures(material, road, velocity, height, plane)))
 
 
 def full_contact_friction(

@@ -9,11 +9,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.special import erfinv
 
-from rubfric.arrays import Flags, Real
+from rubfric.arrays import Flags
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.theory.compression import pressed, pressing
 from rubfric.mechanics.theory.layer import full_contact_pressure, westergaard_contact_fraction
+from rubfric.road.road import Road
+from rubfric.road.waves import WaveRoad
 from rubfric.scene.scene import Scene
 
 _FEWEST_NODES = 8
@@ -22,6 +25,8 @@ _LEAST_HEIGHT = 0.1
 # Contact that a half-space has at the excitation frequency is at least that of the block, whose finer waves are stiffer
 # still; this margin covers what finite strain and a flat block add.
 _MARGIN = 2.0
+# Heights this near to one another, over those of the road, are one height.
+_LEVEL = 1e-9
 # Largest bulk modulus over shear modulus: far beyond any rubber, and far below the inverse of double precision. In
 # finite strain forces balance to about 1e-18 of it (measured), of which the tolerance must stay clear.
 _LARGEST_RATIO, _RATIO_PER_TOLERANCE = 1e8, 1e16
@@ -33,22 +38,30 @@ def fewest_nodes(scene: Scene) -> int:
 
 
 def estimated_fraction(scene: Scene) -> float:
-    """Return the contact fraction of an elastic half-space as stiff as the rubber at the excitation frequency."""
+    """Return the contact fraction of an elastic half-space as stiff as the rubber at the excitation frequencies.
+
+    On one wave that of Westergaard, on many that of Persson for ridges, erf(p / p*).
+    """
     filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
+    if isinstance(scene.road, WaveRoad):
+        return math.erf(scene.pressure / filling) if filling > 0.0 else 1.0
     return float(westergaard_contact_fraction(scene.pressure / filling)) if filling > scene.pressure else 1.0
 
 
-def near_crest(columns: int, fraction: float) -> Flags:
-    """Return which surface nodes lie in a share of the wavelength around the crest, at least one; shape (columns,).
+def near_crests(road: Road, columns: int, fraction: float) -> Flags:
+    """Return the highest places of a road that make up a share of it, at least one; shape (columns,).
 
     Parameters
     ----------
+    road : Road
     columns : int
     fraction : float
-        Share of the wavelength.
+        Share of the road.
     """
-    from_crest: Real = np.abs((np.arange(columns) / columns + 0.25) % 1.0 - 0.5)  # in wavelengths
-    return from_crest <= max(0.5 * fraction, 0.5 / columns)
+    height = road.height(road.period / columns * np.arange(columns))
+    count = min(max(round(fraction * columns), 1), columns)
+    lowest = np.sort(height)[columns - count]
+    return height >= lowest - _LEVEL * np.ptp(height)
 
 
 def largest_poissons_ratio(scene: Scene, finite: bool) -> float:
@@ -107,7 +120,9 @@ def require_resolvable(scene: Scene, columns: int, remedy: str) -> None:
     if _MARGIN * estimated_fraction(scene) * columns >= fewest:
         return
     filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-    lightest = filling * math.sin(0.5 * math.pi * fewest / (_MARGIN * columns)) ** 2
+    fraction = fewest / (_MARGIN * columns)
+    ratio = erfinv(fraction) if isinstance(scene.road, WaveRoad) else math.sin(0.5 * math.pi * fraction) ** 2
+    lightest = filling * ratio
     raise InvalidInput(
         f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at least {lightest:.2g} MPa: "
         f"lighter contacts have fewer than {fewest} surface nodes on the finest mesh, of {columns} columns; {remedy}"

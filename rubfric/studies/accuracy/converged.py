@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from rubfric.mechanics.finite.steady import FiniteSolver
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.refinement import steps_to
-from rubfric.mechanics.steady.resolution import Resolution, most_columns, needed
+from rubfric.mechanics.steady.resolution import Resolution, count_spots, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
 from rubfric.mechanics.theory.kinematics import decide
 from rubfric.scene.numerics import Numerics, fineness
@@ -61,7 +61,8 @@ def converge(scene: Scene) -> Converged:
     solution = steps_to(scene, solver, [])
     found: list[Friction] = []
     for finer in _FINENESS[kinematics]:
-        target = needed(scene, solution.contact_fraction, solver.finite)
+        spots = count_spots(scene, solution.contact.touching)
+        target = needed(scene, solution.contact_fraction, solver.finite, spots)
         growth = 1.0 + (target.growth - 1.0) / finer
         columns = target.finer(scene, finer, solver.finite).columns
         solution = solver.solve(Resolution(columns, growth))

@@ -78,4 +78,4 @@ def test_checkpoint_of_another_march_or_of_other_code_does_not_stand_in_the_way(
     script.main(str(output), paper_scene(100.0, 0.5).parameters(), asdict(PROCEDURE))
     assert dataset.read(output).sizes["wavelength"] == 2
     assert not left.exists()
-    assert ("was left by other code" not in capsys.readouterr().out) == same_code
+    assert ("checkpoint of other code" not in capsys.readouterr().out) == same_code

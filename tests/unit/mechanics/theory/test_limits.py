@@ -13,7 +13,7 @@ from rubfric.marching import march
 from rubfric.mechanics.theory.limits import (
     estimated_fraction,
     fewest_nodes,
-    near_crest,
+    near_crests,
     require_columns,
     require_height,
     require_resolvable,
@@ -44,7 +44,7 @@ def test_fraction_grows_as_the_root_of_a_light_load() -> None:
 
 @pytest.mark.parametrize("fraction", [1e-6, 0.1, 0.5, 1.0, 3.0])
 def test_nodes_near_the_crest_are_where_the_road_is_highest(fraction: float) -> None:
-    flags = near_crest(64, fraction)
+    flags = near_crests(SCENE.road, 64, fraction)
     height = np.sin(2.0 * np.pi * np.arange(64) / 64)
     assert flags.any()
     assert flags[np.argmax(height)]

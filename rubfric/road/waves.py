@@ -1,0 +1,138 @@
+"""A road of many waves, s(x) = sum_j a_j sin(k_j x + phi_j): all scales of a road at once.
+
+The block that slides over it is one period of the road wide: the shortest length that holds every wave a whole number
+of times.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rubfric import checks
+from rubfric.arrays import Real
+from rubfric.errors import InvalidInput
+from rubfric.road.road import Waves
+from rubfric.rules import Items, Number, check_fields
+
+# Most times that the finest wave may fit into the period: a mesh needs some 16 columns for each.
+MOST_WAVES = 512
+# Relative change of a wavenumber that is none: wavenumbers are given to twelve digits.
+_SAME = 1e-9
+# Nodes per finest wave at which the steepest slope is looked for.
+_SAMPLES = 16
+
+
+@dataclass(frozen=True)
+class WaveRoad:
+    """A road of many waves.
+
+    Raises
+    ------
+    InvalidInput
+        For waves without a period short enough, with the nearest wavenumbers that have one; for lists of different
+        lengths; for any value outside its bounds.
+    """
+
+    amplitudes: Annotated[tuple[float, ...], Items("a_j.", Number(unit="mm", low=0.0), distinct=False, ascending=False)]
+    wavenumbers: Annotated[tuple[float, ...], Items("k_j.", Number(unit="1/mm"), distinct=False, ascending=False)]
+    phases: Annotated[
+        tuple[float, ...], Items("phi_j.", Number(unit="rad", low=-1e6, high=1e6), distinct=False, ascending=False)
+    ]
+
+    def __post_init__(self) -> None:
+        check_fields(self, "road.")
+        if not len(self.amplitudes) == len(self.wavenumbers) == len(self.phases):
+            raise InvalidInput(
+                f"road has {len(self.amplitudes)} amplitudes, {len(self.wavenumbers)} wavenumbers and "
+                f"{len(self.phases)} phases, but must have one of each for every wave"
+            )
+        parts, change = _parts(self.wavenumbers)
+        if change > _SAME:
+            raise InvalidInput(_no_period(self.wavenumbers, parts, change))
+
+    @cached_property
+    def fundamental(self) -> float:
+        """Wavenumber of the period, 1/mm: the largest of which all others are multiples."""
+        return min(self.wavenumbers) / _parts(self.wavenumbers)[0]
+
+    @property
+    def period(self) -> float:
+        """2 pi over ``fundamental``, mm."""
+        return 2.0 * math.pi / self.fundamental
+
+    @property
+    def wavelength(self) -> float:
+        """Of the coarsest wave, mm."""
+        return 2.0 * math.pi / min(self.wavenumbers)
+
+    @property
+    def waves(self) -> Waves:
+        """The waves as arrays, their wavenumbers multiples of ``fundamental`` to the last digit."""
+        multiples = np.rint(np.array(self.wavenumbers) / self.fundamental)
+        return Waves(np.array(self.amplitudes), multiples * self.fundamental, np.array(self.phases))
+
+    @cached_property
+    def steepest_slope(self) -> float:
+        """Largest |s'(x)| at 16 points of the finest wave, dimensionless."""
+        nodes = _SAMPLES * round(max(self.wavenumbers) / self.fundamental)
+        return float(np.abs(self.slope(self.period / nodes * np.arange(nodes))).max())
+
+    def height(self, position: ArrayLike) -> Real:
+        """Return s(x), mm, at positions in mm of any shape."""
+        return self._sum(position, 0)
+
+    def slope(self, position: ArrayLike) -> Real:
+        """Return s'(x), dimensionless, at positions in mm of any shape."""
+        return self._sum(position, 1)
+
+    def curvature(self, position: ArrayLike) -> Real:
+        """Return s''(x), 1/mm, at positions in mm of any shape."""
+        return self._sum(position, 2)
+
+    def _sum(self, position: ArrayLike, order: int) -> Real:
+        """Return a derivative of s: each adds a factor k_j and a quarter of a turn."""
+        place = np.asarray(position, dtype=float)
+        found = np.zeros_like(place)
+        waves = self.waves
+        for amplitude, wavenumber, phase in zip(waves.amplitudes, waves.wavenumbers, waves.phases, strict=True):
+            found += amplitude * wavenumber**order * np.sin(wavenumber * place + (phase + 0.5 * math.pi * order))
+        return found
+
+
+def _parts(wavenumbers: Sequence[float]) -> tuple[int, float]:
+    """Return into how many parts the coarsest wavenumber is to be divided for all to be multiples of one.
+
+    Returns
+    -------
+    parts : int
+        The fewest that leave no change; else, to a tenth, those that leave the smallest.
+    change : float
+        Largest relative change of any wavenumber to the nearest multiple.
+    """
+    ratios = np.array(wavenumbers) / min(wavenumbers)
+    parts = np.arange(1, max(1, int(MOST_WAVES / ratios.max())) + 1)
+    multiples = parts[:, None] * ratios
+    change = np.abs(np.rint(multiples) / multiples - 1.0).max(axis=1)
+    first = int(np.argmax(change <= max(1.1 * float(change.min()), _SAME)))
+    return int(parts[first]), float(change[first])
+
+
+def _no_period(wavenumbers: Sequence[float], parts: int, change: float) -> str:
+    """Say that a road has no period short enough, and which wavenumbers near its own have one."""
+    unit = min(wavenumbers) / parts
+    given, nearest = (
+        ", ".join(checks.written(one) for one in some)
+        for some in (wavenumbers, [round(one / unit) * unit for one in wavenumbers])
+    )
+    return (
+        f"wavenumbers of the road are {given} 1/mm, but must have a common period that holds the finest wave at most "
+        f"{MOST_WAVES} times: the nearest that have one are {nearest} 1/mm, which changes none by more than "
+        f"{100.0 * change:.2g} %"
+    )
