@@ -114,8 +114,15 @@ class SlopedSurface:
     def matrix(self, inside: Whole) -> Real:
         """Return the compliance among the nodes ``inside``, mm/MPa."""
         lag = inside[:, None] - inside[None, :]
-        normal = self._normal[:, inside]
-        return np.einsum("ai,abij,bj->ij", normal, self._kernel[:, :, lag], normal, optimize=True)
+        (along, up), kernel = self._normal[:, inside], self._kernel
+        by_height = along[:, None] * kernel[0, 1][lag]
+        by_height += up[:, None] * kernel[1, 1][lag]
+        by_height *= up
+        matrix: Real = along[:, None] * kernel[0, 0][lag]
+        matrix += up[:, None] * kernel[1, 0][lag]
+        matrix *= along
+        matrix += by_height
+        return matrix
 
     def deflection(self, pressure: Real) -> Real:
         """Return how far the surface yields along the normals, mm."""
@@ -290,9 +297,10 @@ class Linearised:
         answer = self._problem.yielding(circulant, right, self._correction.slope, pressure, offset)
         return answer, -pressure
 
-    def gap(self, step: Fields) -> Real:
-        """Return the height of the nodes above the road after a step, mm, while the road is straight under them."""
-        return self._correction.above + (self._normal * step.displacement[:, 0]).sum(axis=0)
+    def along_normals(self, step: Fields) -> Real:
+        """Return how far a step takes the nodes from a road that is straight under them, mm, shape (columns,)."""
+        moved: Real = (self._normal * step.displacement[:, 0]).sum(axis=0)
+        return moved
 
     def _held(self, moved: Real, total: float) -> tuple[Real, float]:
         """Return pressures, MPa, of a given sum that move the contact nodes along the normals, and the offset, mm."""

@@ -11,16 +11,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact
+from rubfric.mechanics.finite.krylov import Krylov, Operator
 
 MOST_KRYLOV = 60
 # Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.
 _MOST_PASSES, _PATIENCE = 12, 4
+# The first few sets are told from each other after GMRES has solved to this share of the residual.
+_LOOSE, _LOOSE_PASSES = 0.1, 3
+# One violation in so many columns is left to the next step.
+_COLUMNS_PER_FEW = 512
 # Violations below this share of the largest pressure, or of the road's height, are left to the next step.
 _NEGLIGIBLE = 1e-9
 
@@ -81,44 +85,42 @@ def newton_direction(
     """
     vector: Real | None = None
     applied = most = passes = 0
-    best, patience = len(touching) + 1, _PATIENCE
+    best, patience, few = len(touching) + 1, _PATIENCE, len(touching) // _COLUMNS_PER_FEW
     while True:
         passes += 1
         linear = Linearised(problem, circulant, stiffness, correction, load, touching)
-        vector, pressure, count = _balanced(problem, linear, vector, forcing)
-        step = problem.unpack(vector)
-        applied, most = applied + count, max(most, count)
-        gap = linear.gap(step)
-        pulls = touching & (pressure < -_NEGLIGIBLE * np.abs(pressure).max())
-        pierces = ~touching & (gap < -_NEGLIGIBLE * problem.height)
-        violated = pulls | pierces
-        found = int(np.count_nonzero(violated))
+        rest, held = linear.rest()
+        krylov = Krylov(_operator(problem, linear), problem.pack(rest), vector, MOST_KRYLOV)
+        for goal in (max(_LOOSE, forcing), forcing):
+            while krylov.residual > goal and not krylov.full:
+                krylov.grow()
+            change, moved = krylov.beside()
+            pressure, gap = held + change, correction.above + moved
+            pulls = touching & (pressure < -_NEGLIGIBLE * np.abs(pressure).max())
+            pierces = ~touching & (gap < -_NEGLIGIBLE * problem.height)
+            violated = pulls | pierces
+            found = int(np.count_nonzero(violated))
+            if found > few and passes <= _LOOSE_PASSES:
+                break
+        vector = krylov.vector()
+        applied, most = applied + krylov.applied, max(most, krylov.applied)
         if found < best:
             best, patience = found, _PATIENCE
         else:
             patience -= 1
-        if not (found and patience and passes < _MOST_PASSES):
-            break
+        if not (found > few and patience and passes < _MOST_PASSES):
+            return Direction(problem.unpack(vector), touching ^ violated, applied, most, passes)
         touching = touching ^ violated
         if not touching.any():
             touching[int(np.argmin(gap))] = True
-    return Direction(step, touching, applied, most, passes)
 
 
-def _balanced(
-    problem: SlidingContact, linear: Linearised, guess: Real | None, forcing: float
-) -> tuple[Real, Real, int]:
-    """Return the packed step at given contact nodes, the pressures, and how often the tangent was applied."""
-    rest, held = linear.rest()
-    right = problem.pack(rest)
-    applied = 0
+def _operator(problem: SlidingContact, linear: Linearised) -> Operator:
+    """Return the derivative of u - T(u) on packed steps; beside it go the pressures and the way along the normals."""
 
-    def apply(packed: Real) -> Real:
-        nonlocal applied
-        applied += 1
-        return problem.pack(linear.change(problem.unpack(packed))[0])
+    def apply(packed: Real) -> tuple[Real, Real]:
+        step = problem.unpack(packed)
+        change, pressure = linear.change(step)
+        return problem.pack(change), np.stack((pressure, linear.along_normals(step)))
 
-    operator = LinearOperator((right.size, right.size), matvec=apply, dtype=float)
-    vector, _ = gmres(operator, right, x0=guess, rtol=forcing, restart=MOST_KRYLOV, maxiter=1)
-    _, change = linear.change(problem.unpack(vector))
-    return vector, held + change, applied + 1
+    return apply

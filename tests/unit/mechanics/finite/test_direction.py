@@ -43,7 +43,7 @@ def test_direction_solves_the_linearised_contact(plane: str) -> None:
     (rest, held), (left, change) = linear.rest(), linear.change(found.step)
     size = point.problem.size
     assert size(rest.moved(left, -1.0)) <= 10.0 * FORCING * size(rest)
-    pressure, gap = held + change, linear.gap(found.step)
+    pressure, gap = held + change, point.correction.above + linear.along_normals(found.step)
     assert 0 < np.count_nonzero(found.touching) < len(found.touching)
     assert pressure[found.touching].min() > 0.0
     assert gap[~found.touching].min() > 0.0
