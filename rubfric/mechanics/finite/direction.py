@@ -21,6 +21,8 @@ from rubfric.mechanics.finite.krylov import Krylov, Operator
 MOST_KRYLOV = 60
 # Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.
 _MOST_PASSES, _PATIENCE = 12, 4
+# Applications of the tangent after which no other set is tried.
+_MOST_APPLIED = 120
 # The first few sets are told from each other after GMRES has solved to this share of the residual.
 _LOOSE, _LOOSE_PASSES = 0.1, 3
 # One violation in so many columns is left to the next step.
@@ -43,6 +45,8 @@ class Direction:
         Of them, the most for one set of contact nodes.
     passes : int
         Sets of contact nodes tried.
+    plain : tuple of Fields and ndarray of bool, optional
+        The step at the first guess of the contact nodes, and these, where the last ones still violate conditions.
     """
 
     step: Fields
@@ -50,6 +54,7 @@ class Direction:
     krylov: int
     most: int
     passes: int
+    plain: tuple[Fields, Flags] | None = None
 
 
 def newton_direction(
@@ -108,8 +113,11 @@ def newton_direction(
             best, patience = found, _PATIENCE
         else:
             patience -= 1
-        if not (found > few and patience and passes < _MOST_PASSES):
-            return Direction(problem.unpack(vector), touching ^ violated, applied, most, passes)
+        if passes == 1:
+            first = problem.unpack(vector), touching
+        if not (found > few and patience and passes < _MOST_PASSES and applied < _MOST_APPLIED):
+            plain = first if found > few and passes > 1 else None
+            return Direction(problem.unpack(vector), touching ^ violated, applied, most, passes, plain)
         touching = touching ^ violated
         if not touching.any():
             touching[int(np.argmin(gap))] = True
