@@ -18,6 +18,7 @@ from scipy.linalg import lu_factor, lu_solve
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.block.contact import Contact, pivot
+from rubfric.mechanics.block.surface import inverse
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness, Stressed
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.road.road import Road
@@ -98,6 +99,8 @@ class SlopedSurface:
         self._compliance = compliance * column_width
         self._kernel = np.fft.irfft(self._compliance, len(slope), axis=-1)
         self._normal = np.stack((-slope, np.ones_like(slope)))
+        self._inverse = inverse(0.5 * (self._compliance[0, 0] + self._compliance[1, 1]), len(slope))
+        self._steepness = np.hypot(1.0, slope)
 
     def matrix(self, inside: Whole) -> Real:
         """Return the compliance among the nodes ``inside``, mm/MPa."""
@@ -111,6 +114,11 @@ class SlopedSurface:
         moved = np.einsum("abn,bn->an", self._compliance, force)
         answer: Real = (self._normal * np.fft.irfft(moved, len(pressure), axis=-1)).sum(axis=0)
         return answer
+
+    def pressing(self, deflection: Real) -> Real:
+        """Return about the pressure that makes a deflection: as if the surface were as soft one way as the other."""
+        level = np.fft.rfft(deflection / self._steepness)
+        return np.fft.irfft(self._inverse * level, len(deflection)) / self._steepness
 
 
 class SlidingContact:
