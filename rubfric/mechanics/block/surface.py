@@ -10,6 +10,7 @@ needs none.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -63,7 +64,6 @@ class Convolution:
         self._compliance = compliance
         self._nodes = nodes
         self._kernel = np.fft.irfft(compliance, nodes)
-        self._inverse = inverse(compliance, nodes)
 
     def matrix(self, inside: Whole) -> Real:
         """Return C among the nodes ``inside``."""
@@ -76,6 +76,10 @@ class Convolution:
     def pressing(self, deflection: Real) -> Real:
         """Return the pressure that makes a deflection, but for the mean."""
         return np.fft.irfft(self._inverse * np.fft.rfft(deflection), self._nodes)
+
+    @cached_property
+    def _inverse(self) -> Complex:
+        return inverse(self._compliance, self._nodes)
 
 
 def inverse(compliance: Complex, nodes: int) -> Complex:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
@@ -99,8 +100,6 @@ class SlopedSurface:
         self._compliance = compliance * column_width
         self._kernel = np.fft.irfft(self._compliance, len(slope), axis=-1)
         self._normal = np.stack((-slope, np.ones_like(slope)))
-        self._inverse = inverse(0.5 * (self._compliance[0, 0] + self._compliance[1, 1]), len(slope))
-        self._steepness = np.hypot(1.0, slope)
 
     def matrix(self, inside: Whole) -> Real:
         """Return the compliance among the nodes ``inside``, mm/MPa."""
@@ -117,8 +116,15 @@ class SlopedSurface:
 
     def pressing(self, deflection: Real) -> Real:
         """Return about the pressure that makes a deflection: as if the surface were as soft one way as the other."""
-        level = np.fft.rfft(deflection / self._steepness)
-        return np.fft.irfft(self._inverse * level, len(deflection)) / self._steepness
+        steepness, inverted = self._inverse
+        return np.fft.irfft(inverted * np.fft.rfft(deflection / steepness), len(deflection)) / steepness
+
+    @cached_property
+    def _inverse(self) -> tuple[Real, Complex]:
+        """Length of the normals, and the spectrum of the inverse of the mean compliance, MPa/mm."""
+        normal = self._normal
+        mean = 0.5 * (self._compliance[0, 0] + self._compliance[1, 1])
+        return np.hypot(*normal), inverse(mean, normal.shape[1])
 
 
 class SlidingContact:
