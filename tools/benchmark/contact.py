@@ -1,8 +1,7 @@
 """Show how the cost of a contact grows with its nodes: all scales of the paper's road at once, half of it in contact.
 
-The surface is the closed-form layer in small strain, from 1024 to 16384 nodes, each solved from coarse to fine without a
-first guess. CPU times are compared with n log n, and with one dense system of the nodes in contact, of which every pivot
-used to solve one.
+The surface is the closed-form layer in small strain, from 1024 to 16384 nodes, each solved from coarse to fine without
+a first guess. CPU times are compared with n log n, and with one dense system of the nodes in contact.
 """
 
 from __future__ import annotations
@@ -83,8 +82,8 @@ def main() -> None:
         )
     text = (
         f"{markdown_table(rows, numeric=True)}\n\n"
-        f"All scales of the road at once, {VELOCITY:g} mm/s, {PRESSURE:g} MPa, plane {PLANE}, small strain; C is that of "
-        f"the closed-form layer. Pivots and applications on all meshes from coarse to fine; CPU time over n log n "
+        f"All scales of the road at once, {VELOCITY:g} mm/s, {PRESSURE:g} MPa, plane {PLANE}, small strain; C is that "
+        f"of the closed-form layer. Pivots and applications on all meshes from coarse to fine; CPU time over n log n "
         f"relative to the first; dense: filling and solving the system of the nodes in contact once. Least of {rounds} "
         f"rounds. {tables.machine()}."
     )

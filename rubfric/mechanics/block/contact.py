@@ -116,17 +116,18 @@ def solve_contact(
     NotConverged
         As ``pivot`` does.
     """
-    steps, sizes, series = 0, [len(profile)], np.fft.rfft(profile)
+    steps, sizes = 0, [len(profile)]
     if start is not None:
         most = min(_STEPS_AT_ONCE, MOST_STEPS)
         try:
             return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label, most)
         except NotConverged as error:
-            if error.step < most:
+            if not np.isfinite(error.residual):
                 raise
-            steps = most
+            steps = error.step
     while sizes[-1] > _COARSEST:
         sizes.append((sizes[-1] + 1) // 2)
+    series = np.fft.rfft(profile)
     near = Contact(np.full(sizes[-1], float(nominal)), np.zeros(sizes[-1]), 0.0, 0)
     for nodes in reversed(sizes):
         kept = nodes // 2 + 1
@@ -175,8 +176,8 @@ def follow(surface: Surface, profile: Real, nominal: float, near: Contact, label
         try:
             found = pivot(surface, (1.0 - aim) * begin + aim * profile, nominal, touching, label, most)
         except NotConverged as error:
-            steps, ahead = steps + most, ahead / 4.0
-            if error.step < most or ahead < _LEAST_SHARE or steps > _MOST_STEPS_ALONG:
+            steps, ahead = steps + error.step, ahead / 4.0
+            if not np.isfinite(error.residual) or ahead < _LEAST_SHARE or steps > _MOST_STEPS_ALONG:
                 raise
             continue
         steps += found.iterations
