@@ -15,7 +15,6 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import argparse
 import time
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
@@ -28,12 +27,17 @@ from rubfric.config.campaign import Campaign, load
 from rubfric.errors import RubfricError
 from rubfric.markdown import markdown_table
 from rubfric.mechanics.theory.coupling import WAYS, Coupling, estimate
+from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import PLANES, Material
+from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
 REFERENCES = tables.DOCS / "coupling_references.csv"
-POINT = ["plane", "velocity", "pressure"]
+POINT = ["case", "plane", "velocity", "pressure"]
+# Speeds and pressures at which the other rubbers and roads are solved in finite strain.
+OTHERS = ((1e4, 1.0), (1e3, 0.5), (1e3, 2.0), (100.0, 0.2), (10.0, 0.1))
+Place = tuple[str, float, float]
 # One point in so many of the grids goes to a mesh in small strain.
 SAMPLE = 23
 PERCENT = (50, 95, 100)
@@ -52,38 +56,55 @@ def main() -> None:
     print(text)
 
 
-def grid(campaign: Campaign) -> Iterator[tuple[str, float, float]]:
-    """Yield plane, speed and pressure, the light and fast first: they take least."""
-    points = list(product(PLANES, campaign.velocities, campaign.pressures))
-    yield from sorted(points, key=lambda point: point[2] / point[1] ** 0.4)
+def grid(campaign: Campaign) -> list[Place]:
+    """Return plane, speed and pressure of the paper's grid, the light and fast first: they take least."""
+    return sorted(product(PLANES, campaign.velocities, campaign.pressures), key=lambda at: at[2] / at[1] ** 0.4)
 
 
-def point_estimate(campaign: Campaign, plane: str, velocity: float, pressure: float, kinematics: str) -> Coupling:
-    """Return the coupling of the campaign's road at a point."""
-    scene = campaign.scene("all", velocity, pressure, plane=plane)
-    return estimate(scene.material, scene.road, velocity, pressure, scene.height, plane, kinematics)
+def coupling(campaign: Campaign, case: str, at: Place, kinematics: str) -> Coupling:
+    """Return the coupling of a case at a place."""
+    (material, road), (plane, velocity, pressure) = cases(campaign)[case], at
+    return estimate(material, road, velocity, pressure, campaign.aspect * road.wavelength, plane, kinematics)
+
+
+def cases(campaign: Campaign) -> dict[str, tuple[Material, WaveRoad]]:
+    """Return rubbers and roads by name, the campaign's own first."""
+    return {
+        f"{rubber}, {road}": (material, waves)
+        for (rubber, material), (road, waves) in product(rubbers(campaign).items(), roads(campaign).items())
+    }
 
 
 def measure(campaign: Campaign) -> None:
     """Add to the references what the draft preset finds in finite strain: sum and direct total, or a refusal."""
     known = pd.read_csv(REFERENCES, dtype={"note": str}) if REFERENCES.exists() else pd.DataFrame(columns=POINT)
     done = set(known[POINT].itertuples(index=False, name=None))
-    for point in grid(campaign):
-        if point in done:
-            continue
-        plane, velocity, pressure = point
-        row: dict[str, object] = dict(zip(POINT, point, strict=True)) | {"note": ""}
-        try:
-            found = [
-                simulate(campaign.scene(scale, velocity, pressure, plane=plane, kinematics="finite", preset="draft"))
-                for scale in (*campaign.scales, "all")
-            ]
-            friction = [float(one["friction_coefficient"]) for one in found]
-            row |= {"sum": sum(friction[:-1]), "direct": friction[-1]}
-        except RubfricError as error:
-            row["note"] = str(error)
-        known = pd.concat([known, pd.DataFrame([row])], ignore_index=True)
-        known.to_csv(REFERENCES, index=False, float_format="%.5g")
+    names = list(cases(campaign))
+    wanted = [(case, *at) for case in names[1:] for at in grid(campaign) if at[1:] in OTHERS]
+    for point in (*wanted, *((names[0], *at) for at in grid(campaign))):
+        if point not in done:
+            known = pd.concat([known, pd.DataFrame([solved(campaign, *point)])], ignore_index=True)
+            known.to_csv(REFERENCES, index=False, float_format="%.5g")
+
+
+def solved(campaign: Campaign, case: str, plane: str, velocity: float, pressure: float) -> dict[str, object]:
+    """Return a row of the references."""
+    row: dict[str, object] = dict(zip(POINT, (case, plane, velocity, pressure), strict=True)) | {"note": ""}
+    material, road = cases(campaign)[case]
+    base = campaign.scene("all", velocity, pressure, plane=plane, kinematics="finite", preset="draft")
+    whole = replace(base, material=material, road=road)
+    sines = [SineScale(a, k) for a, k in zip(road.amplitudes, road.wavenumbers, strict=True)]
+    try:
+        # The block of a single scale is as high in its wavelengths as that of the whole road: the paper's.
+        friction = [float(simulate(one)["friction_coefficient"]) for one in (whole, *singles(whole, sines))]
+        return row | {"direct": friction[0], "sum": sum(friction[1:])}
+    except RubfricError as error:
+        return row | {"note": str(error)}
+
+
+def singles(whole: Scene, sines: list[SineScale]) -> list[Scene]:
+    """Return the scenes of single scales."""
+    return [replace(whole, scale=number, road=sine) for number, sine in enumerate(sines, 1)]
 
 
 def curve(campaign: Campaign) -> str:
@@ -91,7 +112,7 @@ def curve(campaign: Campaign) -> str:
     rows, spent = [], time.process_time()
     for plane, pressure in product(PLANES[::-1], (0.1, 0.5, 5.0)):
         for velocity in campaign.velocities:
-            found = point_estimate(campaign, plane, velocity, pressure, "small")
+            found = coupling(campaign, next(iter(cases(campaign))), (plane, velocity, pressure), "small")
             totals = [f"{value:.4f}" for value in (found.direct, found.sum, found.cascade, found.persson)]
             bounds = [f"{found.direct / getattr(found, way) - 1.0:+.0%}" for way in WAYS]
             rows.append((plane, f"{pressure:g}", f"{velocity:g}", *totals, *bounds))
@@ -140,7 +161,7 @@ def judged(way: str, error: Real, bound: Real) -> list[str]:
 def small(campaign: Campaign) -> str:
     """Return what the differences of the ways say of their errors in small strain, and the layer of the block."""
     found, blocks = [], []
-    for (_, material), (_, road) in product(rubbers(campaign).items(), roads(campaign).items()):
+    for material, road in cases(campaign).values():
         for plane, velocity, pressure in grid(campaign):
             height = campaign.aspect * road.wavelength
             here = estimate(material, road, velocity, pressure, height, plane, "small")
@@ -171,23 +192,30 @@ def small(campaign: Campaign) -> str:
 def finite(campaign: Campaign) -> str:
     """Return how the coupling of small strain carries over to finite strain."""
     known = pd.read_csv(REFERENCES, dtype={"note": str})
-    solved = known.dropna(subset=["sum", "direct"]).sort_values(POINT)
-    truth, single = solved["direct"].to_numpy(), solved["sum"].to_numpy()
-    points = list(solved[POINT].itertuples(index=False, name=None))
-    here = [point_estimate(campaign, *point, "finite") for point in points]
-    rows = []
-    for way, label in (*zip(WAYS, WAYS, strict=True), ("direct", "sum, corrected")):
-        total = np.array([one.total(way, value) for one, value in zip(here, single, strict=True)])
-        rows.append(judged(label, np.abs(truth / total - 1.0), np.array([one.error(way) for one in here])))
+    found = known.dropna(subset=["sum", "direct"]).sort_values(POINT)
+    truth, single = found["direct"].to_numpy(), found["sum"].to_numpy()
+    points = list(found[POINT].itertuples(index=False, name=None))
+    here = [coupling(campaign, case, tuple(at), "finite") for case, *at in points]
+    own = found["case"].to_numpy() == next(iter(cases(campaign)))
+    parts = []
+    for label, chosen in (("the paper's rubber and road", own), ("other rubbers and roads", ~own)):
+        rows = []
+        for way, name in (*zip(WAYS, WAYS, strict=True), ("direct", "sum, corrected")):
+            total = np.array([one.total(way, value) for one, value in zip(here, single, strict=True)])
+            error, bound = np.abs(truth / total - 1.0), np.array([one.error(way) for one in here])
+            rows.append(judged(name, error[chosen], bound[chosen]))
+        missing = np.count_nonzero((known["case"] == next(iter(cases(campaign)))) == (chosen is own)) - chosen.sum()
+        parts.append(
+            f"Finite strain, {label}, {chosen.sum()} points ({missing} more have no reference):\n\n"
+            f"{markdown_table([HEADS, *rows])}"
+        )
     table = []
-    for (plane, velocity, pressure), one, whole, known_here in zip(points, single, truth, here, strict=True):
-        ratios = f"{whole / one:.3f}", f"{known_here.direct / known_here.sum:.3f}", f"{known_here.error('sum'):.0%}"
-        table.append((plane, f"{velocity:g}", f"{pressure:g}", f"{one:.4f}", f"{whole:.4f}", *ratios))
+    for (_, plane, velocity, pressure), one, whole, at, shown in zip(points, single, truth, here, own, strict=True):
+        if shown:
+            ratios = f"{whole / one:.3f}", f"{at.direct / at.sum:.3f}", f"{at.error('sum'):.0%}"
+            table.append((plane, f"{velocity:g}", f"{pressure:g}", f"{one:.4f}", f"{whole:.4f}", *ratios))
     titles = ["plane", "v (mm/s)", "p (MPa)", "sum", "direct", "direct / sum", "the same in small strain", "bound"]
-    return (
-        f"{len(solved)} points in finite strain (Table 1; {len(known) - len(solved)} more have no reference):\n\n"
-        f"{markdown_table([HEADS, *rows])}\n\n{markdown_table([titles, *table])}"
-    )
+    return "\n\n".join((*parts, markdown_table([titles, *table])))
 
 
 if __name__ == "__main__":

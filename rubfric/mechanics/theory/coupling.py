@@ -9,7 +9,7 @@ single scales that were solved in finite strain on a mesh, but for a margin M (c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from rubfric.mechanics.theory.cascade import cascade_friction
@@ -35,7 +35,7 @@ class Coupling:
     Attributes
     ----------
     sum : float
-        Of all scales, each at the nominal pressure.
+        Of all scales, each at the nominal pressure on a block as high in its own wavelengths (the paper's).
     cascade : float
         Each finer scale under the contact pressures of the coarser one.
     persson : float
@@ -122,9 +122,14 @@ def estimate(
     if not sines:
         return Coupling(0.0, 0.0, 0.0, 0.0, margin)
     return Coupling(
-        sum=sum(load_sine(layer, sine, pressure).friction for sine in sines),
+        sum=sum(load_sine(_block(layer, sines[0], sine), sine, pressure).friction for sine in sines),
         cascade=cascade_friction(layer, sines, pressure),
         persson=float(persson_friction(material, road, velocity, pressure, height, plane).sum()),
         direct=load_road(layer, road, pressure).friction,
         margin=margin,
     )
+
+
+def _block(layer: Layer, coarsest: SineScale, sine: SineScale) -> Layer:
+    """Return the layer of a single scale."""
+    return replace(layer, height=layer.height * sine.wavelength / coarsest.wavelength)
