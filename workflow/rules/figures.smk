@@ -164,7 +164,9 @@ rule whole_figure:
         script="workflow/scripts/draw_whole.py",
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:
-        **pictures("fig11", "../report/whole_figure.rst", lambda _: FIGURE_WORDS["fig11"]),
+        **pictures(
+            "fig11", "../report/whole_figure.rst", lambda _: FIGURE_WORDS["fig11"]
+        ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
     params:
