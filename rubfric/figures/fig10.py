@@ -43,7 +43,7 @@ def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
     -------
     matplotlib.figure.Figure
         The paper's sum over the scales, the cascade and Persson's theory as lines; all scales at once with its
-        estimated error as a band. Crosses at the bottom are speeds at which the whole road was refused.
+        estimated error as a band (those of the models, which cover what they neglect, are in the table). Crosses at the bottom are speeds at which the whole road was refused.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
         _draw_direct(panel, one)
     scale_speeds(axes[0], np.concatenate([one.speeds for one in found]))
     direct = np.concatenate([one.friction["direct"] for one in found])
-    error = np.concatenate([one.direct_error for one in found])
+    error = np.concatenate([one.errors["direct"] for one in found])
     scale_friction(axes[0], np.concatenate([shown, upper(direct, error)]))
     panels.entitle(axes, [f"{written(pressure)} MPa" for pressure in chosen])
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
@@ -82,7 +82,7 @@ def _looks() -> list[dict[str, Any]]:
 def _draw_direct(panel: Axes, found: Totals) -> None:
     direct = found.friction["direct"]
     if np.isfinite(direct).any():
-        draw_band(panel, found.speeds, direct, found.direct_error, "black")
+        draw_band(panel, found.speeds, direct, found.errors["direct"], "black")
         panel.plot(found.speeds, direct, label=WAYS["direct"], **_DIRECT)
     if found.refused.any():
         place = found.speeds[found.refused]

@@ -46,8 +46,8 @@ class Totals:
         The friction coefficient that counts, and its whole absolute error.
     ways : numpy.ndarray of str, shape (speeds,)
         How each total was obtained.
-    friction : dict of numpy.ndarray
-        The friction coefficient by each way.
+    friction, errors : dict of numpy.ndarray
+        The friction coefficient by each way, and its whole absolute error.
     drawn : bool
         Whether totals are means over roads with random phases, not those of one road.
     """
@@ -57,6 +57,7 @@ class Totals:
     error: Array
     ways: NDArray[np.str_]
     friction: dict[str, Array]
+    errors: dict[str, Array]
     drawn: bool
 
     @property
@@ -74,11 +75,6 @@ class Totals:
     def main(self) -> Array:
         """The totals that were obtained in the way of most; NaN at the others."""
         return np.where(self.other, np.nan, self.total)
-
-    @property
-    def direct_error(self) -> Array:
-        """Of the friction coefficient of all scales at once, where that is the total."""
-        return np.where(self.ways == "direct", self.error, np.nan)
 
     @property
     def refused(self) -> NDArray[np.bool_]:
@@ -107,18 +103,24 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
     InvalidInput
         For a table without a column or without the pressure.
     """
-    columns = [f"friction_{way}" for way in WAYS]
-    check_columns(table, "table of totals", ("way",), (*_AXES, *_TOTAL), columns)
+    friction = {way: f"friction_{way}" for way in WAYS}
+    errors = {way: f"friction_{way}_error" for way in WAYS}
+    check_columns(table, "table of totals", ("way",), (*_AXES, *_TOTAL, *errors.values()), list(friction.values()))
     rows = table[np.isclose(table["pressure_MPa"], pressure, rtol=1e-9)].sort_values("velocity_mm_per_s")
     if rows.empty:
         listed = ", ".join(written(one) for one in sorted(set(table["pressure_MPa"])))
         raise InvalidInput(f"the table of totals has no pressure {written(pressure)} MPa, but {listed} MPa")
+
+    def column(name: str) -> Array:
+        return rows[name].to_numpy(dtype=np.float64)
+
     return Totals(
-        speeds=rows["velocity_mm_per_s"].to_numpy(dtype=np.float64),
-        total=rows["friction_total"].to_numpy(dtype=np.float64),
-        error=rows["friction_total_error"].to_numpy(dtype=np.float64),
+        speeds=column("velocity_mm_per_s"),
+        total=column("friction_total"),
+        error=column("friction_total_error"),
         ways=rows["way"].to_numpy(dtype=np.str_),
-        friction={way: rows[column].to_numpy(dtype=np.float64) for way, column in zip(WAYS, columns, strict=True)},
+        friction={way: column(name) for way, name in friction.items()},
+        errors={way: column(name) for way, name in errors.items()},
         drawn=bool(rows["friction_road_error"].notna().any()),
     )
 

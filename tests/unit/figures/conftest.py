@@ -154,7 +154,10 @@ def make_totals() -> TableMaker:
             row |= {f"friction_{way}": share * total for way, share in (("cascade", 0.9), ("persson", 0.8))}
             row |= {f"friction_{name}": 0.7 * total for name in ("direct", "total")}
             row |= {"friction_total_error": 0.01 * total, "friction_road_error": 0.005 * total if drawn else np.nan}
+            row |= {f"friction_{way}_error": 0.4 * total for way in ("sum", "cascade", "persson")}
+            row |= {"friction_direct_error": 0.01 * total}
             if (pressure, speed) in refused:
+                row |= {"friction_direct_error": np.nan}
                 row |= {"way": "sum", "friction_direct": np.nan, "friction_total": total}
                 row |= {"friction_total_error": 0.4 * total, "note": "no solution"}
             rows.append(row)
