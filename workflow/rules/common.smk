@@ -35,6 +35,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -43,6 +44,7 @@ wildcard_constraints:
 # one Snakemake that runs them on their node: it would start another for each.
 localrules:
     campaign,
+    whole_collection,
     scale_table,
     total_table,
     campaign_figure,
@@ -63,6 +65,7 @@ if workflow.remote_exec:
 
     localrules:
         scene,
+        whole_scene,
         reading,
         march,
         ladder,

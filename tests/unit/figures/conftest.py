@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from itertools import combinations, product
 
 import numpy as np
@@ -15,6 +17,7 @@ from matplotlib.text import Text
 from synthetic_campaign import make_campaign
 
 from rubfric.figures import style
+from rubfric.road.waves import WaveRoad
 
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
@@ -82,6 +85,42 @@ def make_result() -> ResultMaker:
 
 
 @pytest.fixture(scope="session")
+def make_whole() -> ResultMaker:
+    """Return a function that builds the result of a scene on a road of two waves, in contact on its three crests."""
+
+    def build(pressure: float = 1.0, speed: float = 10.0, kinematics: str = "finite", refusal: str = "") -> xr.Dataset:
+        road = WaveRoad(amplitudes=(0.015, 0.003), wavenumbers=(30.0, 140.0), phases=(0.0, 0.5))
+        attributes = {"scene": "made up", "pressure": pressure, "velocity": speed, "scale": 0, "aspect": 0.75}
+        attributes["scene_parameters"] = json.dumps({"road": asdict(road)})
+        if refusal:
+            return xr.Dataset(attrs=attributes | {"refusal": refusal})
+        columns, rows = 112, 6
+        x, depth = np.linspace(0.0, road.period, columns + 1), 0.15 * np.linspace(0.0, 1.0, rows) ** 2
+        decay = np.exp(-30.0 * depth)[:, None]
+        lift = np.maximum(road.height(x), 0.012) * decay - 0.05 * depth[:, None]
+        density = 0.01 + 0.1 * pressure * (road.height(x) > 0.012) * decay
+        surface = np.arange(224) * (road.period / 224)
+        return xr.Dataset(
+            {
+                "mesh_node_x": ("node", np.tile(x, rows)),
+                "mesh_node_y": ("node", np.repeat(depth, columns + 1)),
+                "displacement_x": ("node", np.zeros(x.size * rows)),
+                "displacement_y": ("node", lift.ravel()),
+                "strain_energy_density": ("node", density.ravel()),
+                "surface_position": ("surface_x", surface),
+                "contact_pressure": ("surface_x", np.where(road.height(surface) > 0.012, 3.0 * pressure, 0.0)),
+                "contact_fraction": 0.275,
+                "friction_coefficient": 0.4321,
+                "friction_coefficient_error": 0.0123,
+                "finite_strain": int(kinematics == "finite"),
+            },
+            attrs=attributes,
+        )
+
+    return build
+
+
+@pytest.fixture(scope="session")
 def words() -> Callable[[Figure], list[str]]:
     """Return a function that lists all that is written in a figure, titles and legends included."""
 
@@ -100,6 +139,31 @@ def series() -> Callable[[Axes], list[tuple[list[float], list[float]]]]:
         return [(list(map(float, line.get_xdata())), list(map(float, line.get_ydata()))) for line in lines]
 
     return read
+
+
+@pytest.fixture(scope="session")
+def make_totals() -> TableMaker:
+    """Return a function that builds totals: direct 0.7, cascade 0.9 and Persson 0.8 of the campaign's sum."""
+
+    def build(campaign: xr.Dataset, refused: Sequence[tuple[float, float]] = (), drawn: bool = False) -> pd.DataFrame:
+        rows = []
+        summed = campaign["friction_coefficient"].sel(aspect=0.75).sum("scale")
+        for pressure, speed in product(campaign["pressure"].values, campaign["velocity"].values):
+            total = float(summed.sel(pressure=pressure, velocity=speed))
+            row = {"velocity_mm_per_s": speed, "pressure_MPa": pressure, "friction_sum": total, "way": "direct"}
+            row |= {f"friction_{way}": share * total for way, share in (("cascade", 0.9), ("persson", 0.8))}
+            row |= {f"friction_{name}": 0.7 * total for name in ("direct", "total")}
+            row |= {"friction_total_error": 0.01 * total, "friction_road_error": 0.005 * total if drawn else np.nan}
+            row |= {f"friction_{way}_error": 0.4 * total for way in ("sum", "cascade", "persson")}
+            row |= {"friction_direct_error": 0.01 * total}
+            if (pressure, speed) in refused:
+                row |= {"friction_direct_error": np.nan}
+                row |= {"way": "sum", "friction_direct": np.nan, "friction_total": total}
+                row |= {"friction_total_error": 0.4 * total, "note": "no solution"}
+            rows.append(row)
+        return pd.DataFrame(rows)
+
+    return build
 
 
 @pytest.fixture(scope="session")
