@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import product
 from typing import Any
@@ -185,6 +185,24 @@ class Campaign:
         scenes = [self.scene(ALL, *point, preset=self.multiscale.preset) for point in grid if self.whole_roads]
         roads = self.whole_roads.items()
         return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
+
+    def whole_parameters(self) -> dict[str, Any]:
+        """Return what the total over the scales depends on besides results, as plain values.
+
+        Those of ``rubfric.results.totals.WholeRoad``. Scales without a common period, of which no whole road is
+        simulated, are judged by the nearest that have one.
+        """
+        roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]
+        return {
+            "way": self.multiscale.way,
+            "accuracy": self.presets[self.multiscale.preset].accuracy,
+            "material": asdict(self.material),
+            "plane": self.plane,
+            "kinematics": self.kinematics,
+            "aspect": self.aspect,
+            "height": self.aspect * max(road.wavelength for road in roads),
+            "roads": [asdict(road) for road in roads],
+        }
 
     @property
     def scales(self) -> range:

@@ -13,13 +13,15 @@ def whole_files(wildcards):
     return [whole_file(name) for name in WHOLE]
 
 
+# What decides whether a scene of the whole road is needed.
+CHOOSING = ["rubfric.results.totals"] if CAMPAIGN.multiscale.way == "auto" else []
 # The collection of them; none where the total does without.
 WHOLE_COLLECTION = [f"{RESULTS}/whole.nc"] if WHOLE else []
 
 
 rule whole_scene:
     input:
-        package_files("rubfric.simulation"),
+        package_files("rubfric.simulation", *CHOOSING),
         script="workflow/scripts/simulate_whole.py",
     output:
         whole_file("{whole}"),
@@ -28,11 +30,18 @@ rule whole_scene:
     priority: 5
     params:
         parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
+        road=CAMPAIGN.whole_parameters() if CHOOSING else {},
         version=rubfric.__version__,
     message:
         "{wildcards.whole}"
     run:
-        jobs.run(input.script, log[0], output=output[0], parameters=params.parameters)
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            parameters=params.parameters,
+            road=params.road,
+        )
 
 
 rule whole_collection:

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from rubfric.arrays import Real
-from rubfric.mechanics.theory.layercontact import Layer, Loaded, load_sine
+from rubfric.mechanics.theory.layer_contact import Layer, Loaded, load_sine
 from rubfric.road.sine import SineScale
 
 # Rungs of the ladder of pressures in a decade, and the lowest of them over the nominal pressure: contact carries next
