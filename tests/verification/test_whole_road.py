@@ -26,7 +26,7 @@ DRAWS = {(100.0, 5.0): (0.656, 0.009), (10.0, 0.5): (0.467, 0.012), (1000.0, 0.5
 
 
 @pytest.mark.parametrize(
-    ("velocity", "friction", "contact"), zip(VELOCITIES, FRICTION_AT_5_MPA, CONTACT_AT_5_MPA, strict=True)
+    ("velocity", "friction", "contact"), list(zip(VELOCITIES, FRICTION_AT_5_MPA, CONTACT_AT_5_MPA, strict=True))
 )
 def test_friction_and_contact_at_5_mpa_are_those_printed(velocity: float, friction: float, contact: float) -> None:
     result = simulate(whole_scene(velocity, 5.0))
