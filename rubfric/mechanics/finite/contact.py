@@ -12,11 +12,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.block.contact import Contact, pivot
+from rubfric.mechanics.block.surface import inverse
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stressed
 from rubfric.mechanics.finite.circulant import Circulant, RightSide
 from rubfric.road.road import Road
@@ -129,6 +131,18 @@ class SlopedSurface:
         moved = np.einsum("abn,bn->an", self._compliance, force)
         answer: Real = (self._normal * np.fft.irfft(moved, len(pressure), axis=-1)).sum(axis=0)
         return answer
+
+    def pressing(self, deflection: Real) -> Real:
+        """Return about the pressure that makes a deflection: as if the surface were as soft one way as the other."""
+        steepness, inverted = self._inverse
+        return np.fft.irfft(inverted * np.fft.rfft(deflection / steepness), len(deflection)) / steepness
+
+    @cached_property
+    def _inverse(self) -> tuple[Real, Complex]:
+        """Length of the normals, and the spectrum of the inverse of the mean compliance, MPa/mm."""
+        normal = self._normal
+        mean = 0.5 * (self._compliance[0, 0] + self._compliance[1, 1])
+        return np.hypot(*normal), inverse(mean, normal.shape[1])
 
 
 class SlidingContact:
