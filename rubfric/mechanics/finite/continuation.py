@@ -19,8 +19,9 @@ from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton, starting_distance
 from rubfric.road.road import finest_waves
 
-# What is solved on the way needs to be near, not exact.
-_ON_THE_WAY = 1e-2
+# What is solved on the way needs to be near, not exact: to this residual, and to this share of that of its start, lest
+# the line through two solutions near each other be one through their errors.
+_ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
 _FIRST_SHARE = 0.5
 _SMALLEST_SHARE = 1e-3
 # Newton's method starts no farther from a solution on the way, if a step of this share of the one wished for does it.
@@ -230,9 +231,11 @@ class Way:
         share, length = 0.0, _FIRST_SHARE
         here, before = start, None
         while True:
-            ahead = self._near(before, (share, here), min(1.0, share + length), loads)
+            ahead, distance = self._near(before, (share, here), min(1.0, share + length), loads)
             guess = _extrapolate(before, (share, here.fields), ahead)
-            tolerance = _ON_THE_WAY if ahead < 1.0 else self._tolerance if last is None else last
+            tolerance = max(min(_ON_THE_WAY, _GAIN * distance), _NEAR_ENOUGH)
+            if ahead == 1.0:
+                tolerance = self._tolerance if last is None else last
             try:
                 begun = Start(guess, here.touching)
                 solved = attempt(self._problem, begun, loads(ahead), tolerance, self._log, f"{what}{ahead:.4g}")
@@ -251,8 +254,8 @@ class Way:
 
     def _near(
         self, before: _Point | None, here: tuple[float, Start], ahead: float, loads: Callable[[float], Load]
-    ) -> float:
-        """Return the share up to ``ahead`` at which the extrapolated fields are near a solution."""
+    ) -> tuple[float, float]:
+        """Return a share up to ``ahead`` at which extrapolated fields are near a solution, and how far from T of it."""
         share, (fields, touching) = here[0], (here[1].fields, here[1].touching)
         shortest = share + max(_SHORTEST * (ahead - share), _SMALLEST_SHARE)
         circulant: Circulant | None = None
@@ -260,7 +263,7 @@ class Way:
             guess = _extrapolate(before, (share, fields), ahead)
             distance, circulant = starting_distance(self._problem, guess, loads(ahead), touching, circulant)
             if distance <= _NEAR or ahead <= shortest:
-                return ahead
+                return ahead, distance
             ahead = share + (ahead - share) * min(max(_NEAR / distance, 0.4), 0.8)
 
 
