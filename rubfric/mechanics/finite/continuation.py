@@ -25,7 +25,7 @@ _ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
 _FIRST_SHARE = 0.5
 _SMALLEST_SHARE = 1e-3
 # Newton's method starts no farther from a solution on the way, if a step of this share of the one wished for does it.
-_NEAR, _SHORTEST = 0.3, 0.05
+_NEAR, _SHORTEST = 0.2, 0.05
 # A step on the way that took at most so many Newton steps is followed by a longer one.
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
