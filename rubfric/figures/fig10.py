@@ -43,7 +43,8 @@ def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
     -------
     matplotlib.figure.Figure
         The paper's sum over the scales, the cascade and Persson's theory as lines; all scales at once with its
-        estimated error as a band (those of the models, which cover what they neglect, are in the table). Crosses at the bottom are speeds at which the whole road was refused.
+        estimated error as a band (the errors of the models, which cover what they neglect, are in the table). Crosses
+        at the bottom are speeds at which the whole road was refused.
 
     Raises
     ------

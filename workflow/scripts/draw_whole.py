@@ -3,7 +3,8 @@
 from rubfric.errors import BrokenResult
 from rubfric.figures import fig11
 from rubfric.figures.style import save
-from rubfric.results.dataset import OTHER_SCENE, load
+from rubfric.results.dataset import load
+from rubfric.results.provenance import OTHER_SCENE
 
 
 def main(results: list[str], digests: list[str], outputs: list[str]) -> None:

@@ -14,7 +14,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from synthetic_campaign import make_campaign
+from synthetic_campaign import make_campaign, make_totals
 
 from rubfric.figures import style
 from rubfric.road.waves import WaveRoad
@@ -141,29 +141,10 @@ def series() -> Callable[[Axes], list[tuple[list[float], list[float]]]]:
     return read
 
 
-@pytest.fixture(scope="session")
-def make_totals() -> TableMaker:
-    """Return a function that builds totals: direct 0.7, cascade 0.9 and Persson 0.8 of the campaign's sum."""
-
-    def build(campaign: xr.Dataset, refused: Sequence[tuple[float, float]] = (), drawn: bool = False) -> pd.DataFrame:
-        rows = []
-        summed = campaign["friction_coefficient"].sel(aspect=0.75).sum("scale")
-        for pressure, speed in product(campaign["pressure"].values, campaign["velocity"].values):
-            total = float(summed.sel(pressure=pressure, velocity=speed))
-            row = {"velocity_mm_per_s": speed, "pressure_MPa": pressure, "friction_sum": total, "way": "direct"}
-            row |= {f"friction_{way}": share * total for way, share in (("cascade", 0.9), ("persson", 0.8))}
-            row |= {f"friction_{name}": 0.7 * total for name in ("direct", "total")}
-            row |= {"friction_total_error": 0.01 * total, "friction_road_error": 0.005 * total if drawn else np.nan}
-            row |= {f"friction_{way}_error": 0.4 * total for way in ("sum", "cascade", "persson")}
-            row |= {"friction_direct_error": 0.01 * total}
-            if (pressure, speed) in refused:
-                row |= {"friction_direct_error": np.nan}
-                row |= {"way": "sum", "friction_direct": np.nan, "friction_total": total}
-                row |= {"friction_total_error": 0.4 * total, "note": "no solution"}
-            rows.append(row)
-        return pd.DataFrame(rows)
-
-    return build
+@pytest.fixture(scope="session", name="make_totals")
+def totals_maker() -> TableMaker:
+    """Return a function that builds tables of totals whose ways are known shares of the campaign's sum."""
+    return make_totals
 
 
 @pytest.fixture(scope="session")
