@@ -19,6 +19,8 @@ CONVENTIONS = "CF-1.11 UGRID-1.0"
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 # The attribute that says why a scene has no result.
 REFUSAL = "refusal"
+# What a scene of the whole road says in its place that was not needed, before the way that will do.
+NOT_NEEDED = "not needed: the accuracy is met by "
 
 # Read once: looking up versions takes as long as a scene.
 _SOFTWARE = ", ".join(
