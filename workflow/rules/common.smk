@@ -17,7 +17,12 @@ from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
-from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
+from rubfric.studies.accuracy.scenes import (
+    batches,
+    drawn_scenes,
+    fixed_scenes,
+    whole_scenes,
+)
 
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
