@@ -8,11 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from rubfric.results.campaign import REFUSALS, refusals
+from rubfric.results.refusals import REFUSALS, refusals
 from rubfric.results.scalars import attributes
+from rubfric.results.scales import DRAWS, ROAD_ERROR
 
-ROAD_ERROR = "friction_road_error"
-DRAWS = "draws"
 _FRICTION = "friction_coefficient"
 
 

@@ -14,10 +14,8 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
-from rubfric.results.campaign import refusals
-from rubfric.results.draws import DRAWS, ROAD_ERROR
-from rubfric.results.provenance import NOT_NEEDED
-from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
+from rubfric.results.refusals import NOT_NEEDED, refusals
+from rubfric.results.scales import AXES, DRAWS, ROAD_ERROR, TOTAL, WAYS, WORDS, total_error, total_friction
 from rubfric.results.selection import check_variables
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material

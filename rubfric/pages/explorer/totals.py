@@ -11,10 +11,8 @@ import xarray as xr
 
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
-from rubfric.results.campaign import refusals
-from rubfric.results.draws import DRAWS
-from rubfric.results.scales import AXES, TOTAL, WORDS
-from rubfric.scene.scene import ALL
+from rubfric.results.refusals import refusals
+from rubfric.results.scales import AXES, DRAWS, TOTAL, WORDS
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
@@ -79,7 +77,7 @@ def reasons(whole: xr.Dataset, axes: Axes) -> list[list[str | None]]:
     """Return why scenes of the whole road were refused, over pressure and speed."""
     # A scene that does not converge says its name first, which the page has said already.
     said = {
-        (pressure, velocity): reason.partition(": ")[2] if reason.startswith(f"{ALL}_") else reason
+        (pressure, velocity): reason.partition(": ")[2] if reason.startswith("all_") else reason
         for (_, velocity, pressure, _), reason in refusals(whole).items()
     }
     return [[said.get((pressure, velocity)) for velocity in axes["velocity"]] for pressure in axes["pressure"]]
