@@ -20,8 +20,7 @@ from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, contacts, dr
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, profile
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed, check_results
-from rubfric.results.refusals import NOT_NEEDED, REFUSAL
-from rubfric.results.selection import written
+from rubfric.results.selection import NOT_NEEDED, REFUSAL, written
 from rubfric.road.waves import WaveRoad
 
 _VARIABLES = (

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from rubfric.results.refusals import REFUSALS, refusals
 from rubfric.results.scalars import attributes
-from rubfric.results.scales import DRAWS, ROAD_ERROR
+from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, refusals
 
 _FRICTION = "friction_coefficient"
 

@@ -10,7 +10,7 @@ from typing import Any
 import xarray as xr
 
 import rubfric
-from rubfric.results.refusals import REFUSAL
+from rubfric.results.selection import REFUSAL
 from rubfric.road.waves import WaveRoad
 from rubfric.scene.scene import ALL, Scene
 

@@ -10,8 +10,6 @@ AXES = ("velocity_mm_per_s", "pressure_MPa")
 TOTAL = ("friction_total", "friction_total_error")
 # Columns of that table that are text.
 WORDS = ("way", "note")
-# In a collection of means over random phases: the error that so few of them leave, and their number.
-ROAD_ERROR, DRAWS = "friction_road_error", "draws"
 
 
 def total_friction(friction: xr.DataArray) -> xr.DataArray:

@@ -14,9 +14,8 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
-from rubfric.results.refusals import NOT_NEEDED, refusals
-from rubfric.results.scales import AXES, DRAWS, ROAD_ERROR, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import check_variables
+from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
+from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, check_variables, refusals
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
@@ -142,8 +141,8 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
             | dict(zip(WORDS, (way, note), strict=True))
         )
     ways = [f"friction_{way}" for way in WAYS]
-    last = ["nominal_compression", "refused", *(f"{way}_error" for way in ways), *WORDS]
-    return pd.DataFrame(rows, columns=[*AXES, *scales, *ways, *TOTAL, *_PARTS, *last])
+    others = [*ways, *(f"{way}_error" for way in ways), *scales, "nominal_compression", "refused"]
+    return pd.DataFrame(rows, columns=[*AXES, *TOTAL, WORDS[0], *_PARTS, *others, WORDS[1]])
 
 
 def _totals(road: WholeRoad, velocity: float, pressure: float, single: _Total) -> dict[str, _Total]:

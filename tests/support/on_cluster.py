@@ -8,7 +8,8 @@ from pathlib import Path
 from project_copy import MINIMAL, Project
 
 PROFILE = ("--profile", "workflow/profiles/slurm", "--default-resources", "slurm_partition=main")
-# The cluster keeps no accounts and is asked often; real ones are not. Two batches of scenes, one for each core, and one of the whole road.
+# The cluster keeps no accounts and is asked often; real ones are not. Two batches of scenes, one for each core, and one
+# of the whole road.
 HURRY = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "1", "--slurm-no-account")
 BATCHES = ("--group-components", "scenes=9", "whole=4", "readings=8")
 

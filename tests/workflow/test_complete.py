@@ -11,8 +11,9 @@ import pandas as pd
 import pytest
 from project_copy import Plan, Project
 
-from rubfric.results.campaign import read, refusals
+from rubfric.results.campaign import read
 from rubfric.results.dataset import load
+from rubfric.results.selection import refusals
 
 FIGURES = {f"fig{number}" for number in range(1, 12)}
 

@@ -14,8 +14,8 @@ from project_copy import Project
 TABLES = {"scale_table": 4, "total_table": 1}
 CLAIMS = {"claims": 1}
 RIG = {"rig_points": 1, "rig_figure": 1, **CLAIMS}
-TOTALS = {"total_table": 1, "total_figure": 2, **RIG}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 3, **TOTALS, "explorer": 1}
+TOTALS = {"total_table": 1, "total_figure": 2, **RIG, "explorer": 1}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 3, **TOTALS}
 WHOLE = {"whole_scene": 4, "whole_collection": 1, "whole_figure": 1}
 FIELDS = {"field_figure": 2, **CLAIMS}
 MARCHES = {"march": 1, "march_figure": 1, **CLAIMS}
@@ -174,7 +174,7 @@ def test_edited_tables_are_written_again_alone(project: Project) -> None:
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/results/scales.py")
     plan = project.plan()
-    assert plan.jobs == {**TOTALS, "explorer": 1}
+    assert plan.jobs == TOTALS
     assert plan.figures == TOTAL_FIGURES | {"fig9"}
 
 

@@ -7,8 +7,8 @@ from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
-from rubfric.results.refusals import REFUSAL
 from rubfric.results.scales import WORDS
+from rubfric.results.selection import REFUSAL
 from rubfric.results.tables import read_table
 
 

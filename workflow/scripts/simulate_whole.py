@@ -5,7 +5,7 @@ from typing import Any
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.dataset import write
 from rubfric.results.provenance import refusal
-from rubfric.results.refusals import NOT_NEEDED
+from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.summary import summary
 from rubfric.results.totals import WholeRoad
 from rubfric.scene.scene import Scene

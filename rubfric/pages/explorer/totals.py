@@ -11,8 +11,8 @@ import xarray as xr
 
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
-from rubfric.results.refusals import refusals
-from rubfric.results.scales import AXES, DRAWS, TOTAL, WORDS
+from rubfric.results.scales import AXES, TOTAL, WORDS
+from rubfric.results.selection import DRAWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"

@@ -15,7 +15,7 @@ from rubfric.results.campaign import collect
 from rubfric.results.dataset import read, write
 from rubfric.results.draws import over_draws
 from rubfric.results.provenance import refusal
-from rubfric.results.refusals import refusals
+from rubfric.results.selection import refusals
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
