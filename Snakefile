@@ -40,6 +40,7 @@ except (NotWritten, BrokenResult) as error:
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/scenes.smk"
+include: "workflow/rules/whole.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/transient.smk"
@@ -55,6 +56,8 @@ rule all:
     input:
         scene_files,
         rules.campaign.output,
+        whole_files,
+        WHOLE_COLLECTION,
         MARCH_FILES,
         TABLES,
         RIG_TABLES,

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import product
 from typing import Any
 
 from rubfric import checks
 from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
+from rubfric.config.multiscale import Multiscale
 from rubfric.config.overlay import overlaid
 from rubfric.config.references import check_references, numerics_of, scale_number
 from rubfric.road.sine import SineScale
@@ -44,6 +45,8 @@ class Campaign:
         Plane stress or plane strain.
     kinematics : {"small", "finite", "auto"}
         Small strain, finite strain, or what each scene needs.
+    multiscale : Multiscale
+        How the friction of the whole road is obtained.
     velocities : tuple of float
         mm/s, ascending.
     pressures : tuple of float
@@ -67,6 +70,7 @@ class Campaign:
     phases: tuple[float, ...]
     plane: str
     kinematics: str
+    multiscale: Multiscale
     velocities: tuple[float, ...]
     pressures: tuple[float, ...]
     aspect: float
@@ -89,7 +93,7 @@ class Campaign:
         road = tuple(SineScale(**scale) for scale in scales)
         check_references(given, len(road))
         numerics, presets = numerics_of(given)
-        return cls(
+        campaign = cls(
             results=given.results,
             material=materials[Choice(words=materials).check("rubber", given.rubber)],
             road_name=given.road,
@@ -97,6 +101,7 @@ class Campaign:
             phases=phases,
             plane=given.plane,
             kinematics=given.kinematics,
+            multiscale=Multiscale(given.multiscale, given.multiscale_preset, given.phases.draws, given.phases.seed),
             velocities=given.grid.velocities,
             pressures=given.grid.pressures,
             aspect=given.grid.aspect,
@@ -108,6 +113,8 @@ class Campaign:
             numerics=numerics,
             presets=presets,
         )
+        _ = campaign.whole_roads  # refuses a road without a period
+        return campaign
 
     def scene(
         self,
@@ -159,8 +166,43 @@ class Campaign:
     @cached_property
     def whole_road(self) -> WaveRoad:
         """All scales of the road at once; InvalidInput where they have no common period."""
+        return WaveRoad(*self._waves)
+
+    @property
+    def _waves(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+        """Amplitudes, wavenumbers and phases of the scales."""
         amplitudes, wavenumbers = zip(*((scale.amplitude, scale.wavenumber) for scale in self.road), strict=True)
-        return WaveRoad(amplitudes, wavenumbers, self.phases)
+        return amplitudes, wavenumbers, self.phases
+
+    @cached_property
+    def whole_roads(self) -> dict[str, WaveRoad]:
+        """The whole road as it is simulated: under no name, or its random phases under ``drawN/``, or nothing."""
+        return self.multiscale.roads(self.road_name, *self._waves)
+
+    def whole_scenes(self) -> dict[str, Scene]:
+        """Return every scene of the whole road by name; with random phases, by ``drawN/`` and name."""
+        grid = product(self.velocities, self.pressures)
+        scenes = [self.scene(ALL, *point, preset=self.multiscale.preset) for point in grid if self.whole_roads]
+        roads = self.whole_roads.items()
+        return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
+
+    def whole_parameters(self) -> dict[str, Any]:
+        """Return what the total over the scales depends on besides results, as plain values.
+
+        Those of ``rubfric.results.totals.WholeRoad``. Scales without a common period, of which no whole road is
+        simulated, are judged by the nearest that have one.
+        """
+        roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]
+        return {
+            "way": self.multiscale.way,
+            "accuracy": self.presets[self.multiscale.preset].accuracy,
+            "material": asdict(self.material),
+            "plane": self.plane,
+            "kinematics": self.kinematics,
+            "aspect": self.aspect,
+            "height": self.aspect * max(road.wavelength for road in roads),
+            "roads": [asdict(road) for road in roads],
+        }
 
     @property
     def scales(self) -> range:

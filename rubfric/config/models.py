@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 from pydantic import create_model, model_validator
 
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, keys
+from rubfric.config.multiscale import WAYS
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
 from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Word, rules
@@ -36,6 +37,16 @@ class Grid(Entry):
     velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
     pressures: Annotated[tuple[float, ...], _grid("Nominal pressures on the top of the block.", "MPa")]
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
+
+
+class PhasesChoice(Entry):
+    """Phases of the waves where all scales are taken at once: those given at the scales, or random ones."""
+
+    draws: Annotated[
+        int,
+        Integer("Number of random sets of phases, over which friction is averaged; 0 for those at the scales.", 0, 999),
+    ]
+    seed: Annotated[int, Integer("Seed of the random phases.", 0, 2**31)]
 
 
 class AspectStudy(Entry):
@@ -246,6 +257,17 @@ class Config(Entry):
             KINEMATICS,
         ),
     ]
+    multiscale: Annotated[
+        str,
+        Choice(
+            "How the friction of the whole road is obtained: the sum over its scales (the paper), a cascade of "
+            "pressures from scale to scale, all scales at once (direct), Persson's theory, or the cheapest of these "
+            "that is accurate enough (auto).",
+            WAYS,
+        ),
+    ]
+    multiscale_preset: Annotated[str, Named("Name of the entry under presets with which the whole road is simulated.")]
+    phases: PhasesChoice
     grid: Grid
     aspect_study: AspectStudy
     transient: TransientChoice

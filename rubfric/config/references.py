@@ -52,7 +52,8 @@ def check_references(given: Config, scales: int) -> None:
             if value not in allowed:
                 known = ", ".join(map(checks.written, allowed))
                 raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from grid.{axis}: {known}")
-    Choice(words=given.presets).check("claims.preset", given.claims.preset)
+    for key, name in (("claims.preset", given.claims.preset), ("multiscale_preset", given.multiscale_preset)):
+        Choice(words=given.presets).check(key, name)
     for name in given.claims.compare:
         Choice(words=given.claims.readings).check("claims.compare", name)
 

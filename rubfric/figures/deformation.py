@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 
@@ -10,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
+from rubfric.road.waves import WaveRoad
 
 Array = NDArray[np.float64]
 
@@ -23,7 +25,7 @@ VARIABLES = (
     "finite_strain",
 )
 _FIELDS = VARIABLES[:-1]
-# Width of the squares of the net, in wavelengths.
+# Width of the squares of the net over that of the block.
 _PITCH = 0.125
 
 
@@ -38,8 +40,8 @@ class DeformedBlock:
     density : numpy.ndarray, shape (rows, columns)
         Strain-energy density at the nodes, MPa.
     net : tuple of numpy.ndarray
-        Abscissae and heights, mm, shape (2, points), of lines that form a square net in the undeformed block,
-        eight to a wavelength; none in small strain, where the picture leaves out part of the deformation.
+        Abscissae and heights, mm, shape (2, points), of lines that form a square net in the undeformed block; none
+        in small strain, where the picture leaves out part of the deformation.
     """
 
     x: Array
@@ -69,7 +71,12 @@ def is_finite(result: xr.Dataset) -> bool:
     return bool(result["finite_strain"])
 
 
-def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
+def profile(result: xr.Dataset) -> WaveRoad:
+    """Return the road of a scene on a whole road, of a refused one too."""
+    return WaveRoad(**json.loads(result.attrs["scene_parameters"])["road"])
+
+
+def deform(result: xr.Dataset, left: float, right: float, pitch: float | None = None) -> DeformedBlock:
     """Return the deformed block between two abscissae.
 
     In finite strain every node is where its displacement takes it. In small strain the lower face is where the contact
@@ -84,6 +91,8 @@ def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
         As built by ``rubfric.results.dataset.build``.
     left, right : float
         Abscissae that the copies must cover at every height, mm.
+    pitch : float, optional
+        Width of the squares of the net, mm; an eighth of the block's by default.
     """
     fields = _by_row_and_column(result)
     width, finite = wavelength(result), is_finite(result)
@@ -96,7 +105,7 @@ def deform(result: xr.Dataset, left: float, right: float) -> DeformedBlock:
     window = np.s_[:, seen[0] - 1 : seen[-1] + 2]
     density = np.tile(fields["strain_energy_density"], copies.size)[window]
     x, y, across, up = x[window], y[window], made[window][0], fields["mesh_node_y"][:, 0]
-    return DeformedBlock(x, y, density, _net(across, up, x, y, _PITCH * width) if finite else ())
+    return DeformedBlock(x, y, density, _net(across, up, x, y, pitch or _PITCH * width) if finite else ())
 
 
 def _by_row_and_column(result: xr.Dataset) -> dict[str, Array]:

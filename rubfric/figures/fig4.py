@@ -6,38 +6,28 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from rubfric.figures import deformation, style
+from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, draw_block, draw_road
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, wavelength
 from rubfric.figures.note import note_below
 from rubfric.figures.panels import letter
-from rubfric.figures.scaling import tick_decades
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 from rubfric.results.selection import written
 
 _VARIABLES = (*deformation.VARIABLES, "surface_x", "road_height", "contact_fraction", "nominal_compression")
-_MAP = "viridis"
-_ROAD: dict[str, Any] = {"facecolor": "0.93", "edgecolor": "0.6", "hatch": "//////", "linewidth": 0.0}
-_PLATE: dict[str, Any] = {"boxstyle": "square,pad=0.1", "facecolor": "0.93", "linewidth": 0.0}
-_NET: dict[str, Any] = {"color": "white", "linewidth": 0.3, "alpha": 0.6}
 # The window in wavelengths: its width, its room below the road and above the block, and its greatest height above the
 # road's mean plane, where all results are in small strain and where some are in finite strain.
 _WIDTH, _BELOW, _SKY, _LOW, _HIGH = 1.25, 0.11, 0.04, 0.5, 1.0
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.76, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
-# The length of the colour bar's label on one line, and the least distance of its ticks, in inches.
-_LABEL, _APART = 1.5, 0.11
 # Sizes of type, in points.
 _SMALL, _SMALLEST = 6.0, 5.0
 
@@ -96,16 +86,16 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     left, right = _stretch(results[0])
     blocks = [deform(grid.results[place], left, right) for place in places]
     window = _window(results, blocks)
-    norm = _colour_scale(results)
+    norm = colour_scale(results)
     sheet = _sheet(grid, window, whole=_highest(blocks) < window.top)
     figure, axes = _arrange(grid, window, sheet)
     letters = [letter(number) + " " for number in range(len(places))] if len(places) > 1 else [""]
     for panel, place, block, mark in zip(axes, places, blocks, letters, strict=True):
-        _draw_block(panel, block, norm)
+        draw_block(panel, block, norm)
         _draw_road(panel, grid.results[place], window)
         _inscribe(panel, mark, float(grid.results[place]["contact_fraction"]), window, sheet)
     _label(figure, axes, grid, sheet)
-    _colour_bar(figure, norm, sheet)
+    colour_bar(figure, norm, sheet.width - _RIGHT + 0.07, sheet.bottom, sheet.height - _TOP)
     return figure
 
 
@@ -131,16 +121,6 @@ def _window(results: Sequence[xr.Dataset], blocks: Sequence[DeformedBlock]) -> _
         bottom=float(results[0]["road_height"].values.min()) - _BELOW * width,
         top=min(ceiling * width, _highest(blocks) + _SKY * width),
     )
-
-
-def _colour_scale(results: Sequence[xr.Dataset]) -> LogNorm:
-    """Return a scale from a low percentile, below which the colour is constant, to the largest density."""
-    density = np.concatenate([result["strain_energy_density"].values for result in results])
-    positive = density[density > 0.0]
-    if positive.size == 0:
-        return LogNorm(1e-3, 1.0, clip=True)
-    low, high = float(np.percentile(positive, 3.0)), float(positive.max())
-    return LogNorm(min(low, 0.5 * high), high, clip=True)
 
 
 def _sheet(grid: SceneGrid, window: _Window, whole: bool) -> _Sheet:
@@ -179,20 +159,11 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
     return figure, list(panels.flat)
 
 
-def _draw_block(panel: Axes, block: DeformedBlock, norm: LogNorm) -> None:
-    # Without a strain there is no colour on a logarithmic scale. A PDF with every cell in it would be large.
-    density = np.maximum(block.density, np.finfo(np.float64).tiny)
-    panel.pcolormesh(block.x, block.y, density, cmap=_MAP, norm=norm, shading="gouraud", rasterized=True, zorder=0.5)
-    panel.add_collection(LineCollection([line.T for line in block.net], zorder=0.6, **_NET), autolim=False)
-    for face, name in ((block.lower_face, "lower face"), (block.upper_face, "upper face")):
-        panel.plot(*face, color="black", linewidth=0.6, gid=name)
-
-
 def _draw_road(panel: Axes, result: xr.Dataset, window: _Window) -> None:
     x = np.linspace(window.left, window.right, 400)
-    road = np.interp(x, result["surface_x"].values, result["road_height"].values, period=wavelength(result))
-    panel.fill_between(x, window.bottom, road, **_ROAD)
-    panel.plot(x, road, color="black", linewidth=0.4, gid="road")
+    draw_road(
+        panel, x, np.interp(x, result["surface_x"].values, result["road_height"].values, period=wavelength(result))
+    )
 
 
 def _inscribe(panel: Axes, mark: str, contact: float, window: _Window, sheet: _Sheet) -> None:
@@ -204,7 +175,7 @@ def _inscribe(panel: Axes, mark: str, contact: float, window: _Window, sheet: _S
     text = f"{mark}{word}{100.0 * contact:.0f} %"
     centre = 0.5 * (window.left + window.right)
     # Below the frame, which the plate would break in small panels.
-    panel.text(centre, middle, text, fontsize=size, ha="center", va="center", bbox=_PLATE, zorder=2.2)
+    panel.text(centre, middle, text, fontsize=size, ha="center", va="center", bbox=PLATE, zorder=2.2)
 
 
 def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet) -> None:
@@ -221,24 +192,3 @@ def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet)
     middle = 0.5 * (sheet.bottom + sheet.height - _TOP) / sheet.height
     figure.text(0.36 / sheet.width, middle, "height (mm)", rotation="vertical", va="center")
     figure.text(_LEFT / sheet.width, 0.04 / sheet.height, sheet.note, fontsize=_SMALL, va="bottom")
-
-
-def _colour_bar(figure: Figure, norm: LogNorm, sheet: _Sheet) -> None:
-    left, high = sheet.width - _RIGHT + 0.07, sheet.height - sheet.bottom - _TOP
-    place = (left / sheet.width, sheet.bottom / sheet.height, 0.09 / sheet.width, high / sheet.height)
-    bar = figure.colorbar(ScalarMappable(norm, _MAP), cax=figure.add_axes(place), extend="min")
-    if high > _LABEL:
-        bar.set_label("strain-energy density (MPa)")
-    else:
-        bar.set_label("strain-energy\ndensity (MPa)", fontsize=_SMALL, labelpad=1.0)
-    lowest, highest = bar.ax.get_ylim()
-    tick_decades(bar.ax.yaxis, lowest, highest)
-    if high < _LABEL:
-        bar.ax.yaxis.set_major_locator(LogLocator(10.0, subs=_ticks_in_decade(high / np.log10(highest / lowest))))
-
-
-def _ticks_in_decade(room: float) -> tuple[float, ...]:
-    """Return as many multiples of a power of ten as find room on a decade, inches."""
-    choices = ((1.0, 2.0, 3.0, 4.0, 6.0), (1.0, 2.0, 5.0))
-    roomy = (choice for choice in choices if np.diff(np.log10([*choice, 10.0])).min() * room > _APART)
-    return next(roomy, (1.0,))

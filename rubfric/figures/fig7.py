@@ -1,10 +1,11 @@
-"""Figure 7: the friction of the whole road at one pressure, and what each scale adds to it."""
+"""Figure 7: the friction of the whole road at one pressure, upon the sum of what each scale adds."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,25 +14,29 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, draw_band, runs, upper
+from rubfric.figures.bands import band_handle, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.scales import total_error, total_friction
-from rubfric.results.selection import described, friction, friction_error
+from rubfric.figures.totals import draw_total, other_handles, totals
+from rubfric.results.scales import total_friction
+from rubfric.results.selection import described, friction
 
-_HEIGHT = 2.9
+_HEIGHT = 3.7
+_SUM: dict[str, Any] = {"color": "0.15", "linewidth": 1.0, "linestyle": (0, (4, 2)), "zorder": 2.2}
 # A speed without a neighbour is drawn this far to either side, as a factor.
 _ALONE = 1.25
 
 
 @style.applied()
-def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
-    """Draw the sum of the scales' friction coefficients against speed, and each scale's share as an area.
+def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: float) -> Figure:
+    """Draw the total against speed, upon the sum of the scales' friction coefficients with an area for each scale.
 
     Parameters
     ----------
     campaign : xarray.Dataset
-        As gathered by ``rubfric.results.campaign.collect``; a speed at which any scale is missing is a gap.
+        As gathered by ``rubfric.results.campaign.collect``; a speed at which any scale is missing is a gap of the sum.
+    table : pandas.DataFrame
+        As from ``rubfric.results.tables.total_table``.
     aspect : float
         Height over width of the blocks.
     pressure : float
@@ -40,42 +45,42 @@ def draw(campaign: xr.Dataset, aspect: float, pressure: float) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        The finest scale lies at the bottom. A ring marks the largest of the sampled totals, where it lies
-        between others. The band around the total is a bound on its estimated error; the legend gives the
-        largest.
+        The finest scale lies at the bottom, the paper's sum is the dashed line on top. The total is the full line, with
+        the band of its whole error, of which the legend gives the largest. Where it was obtained in another way, since
+        the whole road was refused, its points are open, with bars. A ring marks the largest of the rest, where it lies
+        between others.
 
     Raises
     ------
     InvalidInput
-        Where the campaign lacks the ratio or the pressure, or has no speed at which all scales were run.
-    BrokenResult
-        For a campaign without estimated errors.
+        Where the campaign lacks the ratio or the pressure, or has no speed at which all scales were run; for a table
+        that lacks a column or the pressure.
     """
     shares = (
         friction(campaign, aspect=aspect, pressure=pressure)
         .transpose("scale", "velocity")
         .sortby("scale", ascending=False)
     )
-    total = total_friction(shares).values
-    if not bool(np.isfinite(total).any()):
+    summed = total_friction(shares).values
+    if not bool(np.isfinite(summed).any()):
         place = described(pressure=pressure, aspect=aspect)
         raise InvalidInput(
             f"the campaign has no speed at which all scales were run at {place}, so there is no total to draw"
         )
-    speeds = shares["velocity"].values
+    found, speeds = totals(table, pressure), shares["velocity"].values
     figure = Figure(figsize=(style.COLUMN, _HEIGHT), layout="constrained")
     axes = figure.subplots()
-    error = total_error(friction_error(campaign, aspect=aspect, pressure=pressure)).values
     patches = _stack(axes, speeds, shares)
-    draw_band(axes, speeds, total, error, "black", zorder=2.5)
-    (line,) = axes.plot(speeds, total, color="black", linewidth=1.7, marker="o", label="total", zorder=3, clip_on=False)
-    mark_peak(axes, speeds, total, "black")
-    scale_speeds(axes, speeds)
-    scale_friction(axes, upper(total, error))
+    (edge,) = axes.plot(speeds, summed, label="sum of the scales", gid="sum", **_SUM)
+    line = draw_total(axes, found)
+    mark_peak(axes, found.speeds, found.main, "black")
+    scale_speeds(axes, np.concatenate([speeds, found.speeds]))
+    scale_friction(axes, np.concatenate([summed, upper(found.total, found.error)]))
     axes.set_xlabel("sliding speed (mm/s)")
     axes.set_ylabel("friction coefficient (-)")
-    handles = [line, *peak_handles(axes), band_handle(total, error, "black"), *patches[::-1]]
-    panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 3)
+    marks = [*peak_handles(axes), *other_handles([found])]
+    handles = [line, band_handle(found.main, found.error, "black"), *marks, edge, *patches[::-1]]
+    panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 2)
     return figure
 
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -34,19 +33,15 @@ _INTERVALS = {_SPEED: "speed_ci95_mm_per_s", _PRESSURE: "pressure_ci95_MPa", _FR
 
 
 @style.applied()
-def draw(
-    campaign: xr.Dataset, points: pd.DataFrame, aspect: float, pressures: Sequence[float], speeds: Sequence[float]
-) -> Figure:
+def draw(totals: pd.DataFrame, points: pd.DataFrame, pressures: Sequence[float], speeds: Sequence[float]) -> Figure:
     """Draw simulated friction as lines, interpolated between the scenes, and measured friction as points.
 
     Parameters
     ----------
-    campaign : xarray.Dataset
-        As gathered by ``rubfric.results.campaign.collect``.
+    totals : pandas.DataFrame
+        Friction of the whole road, as from ``rubfric.results.totals.total_table``.
     points : pandas.DataFrame
         As ``rubfric.rig.reduction.point_table`` returns it; may have no rows.
-    aspect : float
-        Height over width of the blocks.
     pressures, speeds : sequence of float
         Of the lines over speed (MPa) and over pressure (mm/s). Outside what was simulated there are points alone.
 
@@ -59,11 +54,11 @@ def draw(
     Raises
     ------
     InvalidInput
-        Where the campaign lacks the ratio, or the table a column.
+        Where totals are missing, or the table lacks a column.
     """
     if len(points):
         check_columns(points, "table of the rig", ("source",), tuple(_INTERVALS) + tuple(_INTERVALS.values()))
-    friction = FrictionMap.from_campaign(campaign, aspect)
+    friction = FrictionMap.from_totals(totals)
     figure = Figure(figsize=(style.DOUBLE_COLUMN, _HEIGHT), layout="constrained")
     axes = list(figure.subplots(1, 2, sharey=True))
     over_speed = [(value, *_over_speed(friction, value)) for value in pressures]

@@ -16,7 +16,16 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 _FOLDER = Path(__file__).resolve().parent
-_EXPLORER = ("template.html", "explorer.css", "words.js", "tables.js", "blocks.js", "charts.js", "explorer.js")
+_EXPLORER = (
+    "template.html",
+    "explorer.css",
+    "words.js",
+    "tables.js",
+    "blocks.js",
+    "charts.js",
+    "whole.js",
+    "explorer.js",
+)
 # What each page is made of beside its code; scripts in the order in which the browser reads them.
 _ASSETS = {
     "table": ("page.html", "page.css", "table.html"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import netCDF4
 import numpy as np
@@ -12,7 +13,8 @@ import xarray as xr
 
 from rubfric import __version__
 from rubfric.errors import BrokenResult
-from rubfric.results.dataset import CONVENTIONS, OTHER_SCENE, PAPER, load
+from rubfric.results.dataset import load
+from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER, REFUSAL
 from rubfric.results.scalars import SCALARS, attributes
 
 AXES: dict[str, tuple[str, str]] = {
@@ -25,12 +27,22 @@ AXES: dict[str, tuple[str, str]] = {
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
 _WARNINGS = "warnings"
 
-# The coordinates of a result, its scalars, what it shares with its campaign, and its road.
-_Found = tuple[tuple[float, ...], dict[str, float], dict[str, str], dict[str, float]]
+# The attribute of a collection that holds the coordinates of refused scenes, and why they were refused.
+REFUSALS = "refusals"
+
+
+class _Found(NamedTuple):
+    """The coordinates of a result, its scalars, what it shares with its campaign, its road, and why it was refused."""
+
+    point: tuple[float, ...]
+    values: dict[str, float]
+    shared: dict[str, str]
+    road: dict[str, float]
+    refusal: str
 
 
 def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | None = None) -> xr.Dataset:
-    """Collect the scalars of scene results in one dataset; scenes that were not run are NaN.
+    """Collect the scalars of scene results in one dataset; scenes that were not run, or were refused, are NaN.
 
     Parameters
     ----------
@@ -42,7 +54,8 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     Returns
     -------
     xarray.Dataset
-        Dimensions scale, velocity (mm/s), pressure (MPa), aspect; ``amplitude`` and ``wavenumber`` over scale.
+        Dimensions scale, velocity (mm/s), pressure (MPa), aspect; ``amplitude`` and ``wavenumber`` over scale. What
+        was refused, and why: ``refusals``.
 
     Raises
     ------
@@ -52,21 +65,29 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     """
     files = [os.fspath(path) for path in paths]
     found = _read_all(files, [None] * len(files) if digests is None else digests)
-    points: dict[tuple[float, ...], dict[str, float]] = {}
-    shared: dict[str, str] = {}
+    first: dict[tuple[float, ...], _Found] = {}
     road: dict[float, dict[str, float]] = {}
-    for path, (point, values, common, scale) in zip(files, found, strict=True):
-        if point in points:
+    for path, one in zip(files, found, strict=True):
+        if one.point in first:
             raise BrokenResult(f"{path} is a second result of its scene; keep one of them")
-        if shared and shared != common:
-            other = next(name for name in common if common[name] != shared[name])
-            raise BrokenResult(f"{path} has the {other} {common[other]}, but the results before it {shared[other]}")
-        if road.setdefault(point[0], scale) != scale:
-            raise BrokenResult(f"{path} has {scale} on scale {point[0]:g}, but another result {road[point[0]]}")
-        points[point], shared = values, common
-    if not points:
+        shared = found[0].shared
+        if shared != one.shared:
+            other = next(name for name in shared if one.shared[name] != shared[name])
+            raise BrokenResult(f"{path} has the {other} {one.shared[other]}, but the results before it {shared[other]}")
+        if road.setdefault(one.point[0], one.road) != one.road:
+            raise BrokenResult(
+                f"{path} has {one.road} on scale {one.point[0]:g}, but another result {road[one.point[0]]}"
+            )
+        first[one.point] = one
+    if not first:
         raise BrokenResult("there are no results to collect")
-    return _assemble(points, road, shared)
+    return _assemble(found, road)
+
+
+def refusals(collected: xr.Dataset) -> dict[tuple[float, ...], str]:
+    """Return why scenes of a collection were refused, by scale, velocity (mm/s), pressure (MPa) and aspect."""
+    listed = json.loads(collected.attrs.get(REFUSALS, "[]"))
+    return {tuple(float(number) for number in point): reason for point, reason in listed}
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
@@ -101,13 +122,14 @@ def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
 
 
 def _read_scalars(path: str, digest: str | None) -> _Found:
-    """Return the coordinates of a result, its scalars, what it shares with its campaign, and its road."""
     try:
         with netCDF4.Dataset(path) as stored:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
             point = tuple(float(stored.getncattr(axis)) for axis in AXES)
-            values = {name: float(stored[name][...]) for name in SCALARS}
-            values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
+            refused = str(stored.getncattr(REFUSAL)) if REFUSAL in stored.ncattrs() else ""
+            values = {} if refused else {name: float(stored[name][...]) for name in SCALARS}
+            if not refused:
+                values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
@@ -117,19 +139,17 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
         raise BrokenResult(f"{path} is no readable result: {error}") from error
     if other:
         raise BrokenResult(f"{path} {OTHER_SCENE}")
-    return point, values, common, road
+    return _Found(point, values, common, road, refused)
 
 
-def _assemble(
-    points: dict[tuple[float, ...], dict[str, float]], road: dict[float, dict[str, float]], shared: dict[str, str]
-) -> xr.Dataset:
-    axes = {name: np.array(sorted({point[place] for point in points})) for place, name in enumerate(AXES)}
+def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Dataset:
+    axes = {name: np.array(sorted({one.point[place] for one in found})) for place, name in enumerate(AXES)}
     shape = tuple(len(axis) for axis in axes.values())
     about_all = SCALARS | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
     arrays = {name: np.full(shape, np.nan) for name in about_all}
-    for point, values in points.items():
-        index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), point, strict=True))
-        for name, value in values.items():
+    for one in found:
+        index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), one.point, strict=True))
+        for name, value in one.values.items():
             arrays[name][index] = value
     coordinates = {name: (name, axis, attributes(*AXES[name])) for name, axis in axes.items()}
     coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), attributes(*AXES["scale"]))
@@ -146,4 +166,6 @@ def _assemble(
         "source": f"rubfric {__version__}",
         "references": PAPER,
     }
-    return xr.Dataset(variables, coords=coordinates, attrs=described | shared)
+    refused = sorted((one.point, one.refusal) for one in found if one.refusal)
+    kept = {REFUSALS: json.dumps(refused)} if refused else {}
+    return xr.Dataset(variables, coords=coordinates, attrs=described | found[0].shared | kept)

@@ -2,37 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import os
-import platform
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-import rubfric
 from rubfric.arrays import Real
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.results.provenance import OTHER_SCENE, REFUSAL, about
 from rubfric.results.scalars import SCALARS, attributes, scalars
 from rubfric.results.warnings import below_noise_warning, warnings
-from rubfric.road.waves import WaveRoad
-from rubfric.scene.scene import ALL
-
-PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
-CONVENTIONS = "CF-1.11 UGRID-1.0"
-# Message about a result of other parameters.
-OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
-
-# Read once: looking up versions takes as long as a scene.
-_SOFTWARE = ", ".join(
-    [f"Python {platform.python_version()}"]
-    + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
-)
 
 
 def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.Dataset:
@@ -165,37 +149,14 @@ def _surface(solution: SteadySolution) -> dict[str, Any]:
 
 def _provenance(solution: SteadySolution, energies: Energies) -> dict[str, Any]:
     scene = solution.scene
-    attributes: dict[str, Any] = {
-        "title": f"Steady sliding of a rubber block on a sine road: {scene.name}",
-        "Conventions": CONVENTIONS,
-        "source": f"rubfric {rubfric.__version__}",
-        "references": PAPER,
-        "kinematics": scene.kinematics,
+    return about(scene, f"Steady sliding of a rubber block on a sine road: {scene.name}") | {
         "kinematics_used": solution.decision.kinematics,
         "kinematics_reason": solution.decision.reason,
         "solver_history": "\n".join(solution.history),
-        "scene": scene.name,
-        "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
-        "scene_digest": scene.digest,
-        "rubber": scene.material.name,
-        "plane": scene.plane,
-        "software": _SOFTWARE,
         "warnings": "\n".join(
             [*warnings(solution, energies.closure), *below_noise_warning(energies.stress_power, energies.resolution)]
         ),
     }
-    units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
-    attributes |= {name: getattr(scene, name) for name in units}
-    attributes["scale"] = 0 if scene.scale == ALL else scene.scale
-    road = {"amplitude": "mm", "wavenumber": "mm-1"}
-    if isinstance(scene.road, WaveRoad):
-        road["phase"] = "rad"
-        attributes |= {name: getattr(scene.road.waves, f"{name}s") for name in road}
-    else:
-        attributes |= {name: getattr(scene.road, name) for name in road}
-    listed = {"velocity": "mm s-1", "pressure": "MPa"} | road
-    attributes["units_of_attributes"] = ", ".join(f"{name} {unit}" for name, unit in listed.items())
-    return attributes
 
 
 def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
@@ -251,13 +212,15 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
     Raises
     ------
     BrokenResult
-        For a file that is missing, damaged, no result of rubfric, or that of another scene.
+        For a file that is missing, damaged, no result of rubfric, or that of another scene or of a refused one.
     """
     result = load(path)
     if "scene_digest" not in result.attrs:
         raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
     if digest not in (None, result.attrs["scene_digest"]):
         raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; delete it and run again")
+    if REFUSAL in result.attrs:
+        raise BrokenResult(f"{os.fspath(path)} holds no friction, since the scene was refused: {result.attrs[REFUSAL]}")
     return result
 
 

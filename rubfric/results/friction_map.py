@@ -8,12 +8,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from rubfric.errors import InvalidInput
-from rubfric.results.scales import total_error, total_friction
+from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.results.scales import AXES, TOTAL
 from rubfric.results.selection import pick
 
 Array = NDArray[np.float64]
@@ -83,8 +84,8 @@ class FrictionMap:
     error: Array
 
     @classmethod
-    def from_campaign(cls, campaign: xr.Dataset, aspect: float, scale: int | None = None) -> FrictionMap:
-        """Take the friction of one scale, or the sum over all, at one height-to-width ratio.
+    def from_campaign(cls, campaign: xr.Dataset, aspect: float, scale: int) -> FrictionMap:
+        """Take the friction of one scale at one height-to-width ratio.
 
         Speeds and pressures at which nothing was run are left out.
 
@@ -94,8 +95,8 @@ class FrictionMap:
             As gathered by ``rubfric.results.campaign.collect``.
         aspect : float
             Height over width of the blocks.
-        scale : int, optional
-            One scale of the road; the sum over all by default.
+        scale : int
+            Of the road, 1 being the coarsest.
 
         Raises
         ------
@@ -104,10 +105,33 @@ class FrictionMap:
         BrokenResult
             For a campaign without friction or its errors.
         """
-        chosen = {"aspect": aspect} | ({} if scale is None else {"scale": scale})
-        friction, error = (pick(campaign, name, **chosen) for name in _VARIABLES)
-        if scale is None:
-            friction, error = total_friction(friction), total_error(error)
+        return cls._whole(*(pick(campaign, name, aspect=aspect, scale=scale) for name in _VARIABLES))
+
+    @classmethod
+    def from_totals(cls, totals: pd.DataFrame) -> FrictionMap:
+        """Take the friction of the whole road, with its whole error.
+
+        Parameters
+        ----------
+        totals : pandas.DataFrame
+            As from ``rubfric.results.totals.total_table``.
+
+        Raises
+        ------
+        InvalidInput
+            Where the table has a gap.
+        BrokenResult
+            For a table without the totals or their errors.
+        """
+        lacking = [name for name in (*AXES, *TOTAL) if name not in totals]
+        if lacking:
+            raise BrokenResult(f"the table of totals lacks {', '.join(lacking)}: make it again")
+        field = totals.set_index(list(AXES))[list(TOTAL)].to_xarray()
+        field = field.rename(dict(zip(AXES, ("velocity", "pressure"), strict=True)))
+        return cls._whole(*(field[name] for name in TOTAL))
+
+    @classmethod
+    def _whole(cls, friction: xr.DataArray, error: xr.DataArray) -> FrictionMap:
         friction, error = (field.transpose("pressure", "velocity") for field in (friction, error))
         friction = friction.dropna("pressure", how="all").dropna("velocity", how="all")
         if friction.size == 0 or not bool(np.isfinite(friction.values).all()):

@@ -11,7 +11,7 @@ import xarray as xr
 
 import rubfric
 from rubfric.mechanics.march.result import Transient
-from rubfric.results.dataset import CONVENTIONS, PAPER
+from rubfric.results.provenance import CONVENTIONS, PAPER
 from rubfric.results.scalars import attributes
 from rubfric.scene.procedure import PHASES
 from rubfric.scene.scene import ALL, Scene

@@ -1,8 +1,15 @@
-"""Friction of a road of many scales from that of each (Zhou, Wang and Wei 2019, section 2.3)."""
+"""Friction of a road of many scales: the sum over them (Zhou, Wang and Wei 2019, section 2.3), and its table."""
 
 from __future__ import annotations
 
 import xarray as xr
+
+# The ways to the friction of the whole road, in the order of the table of totals, whose columns these are.
+WAYS = ("sum", "direct", "cascade", "persson")
+AXES = ("velocity_mm_per_s", "pressure_MPa")
+TOTAL = ("friction_total", "friction_total_error")
+# Columns of that table that are text.
+WORDS = ("way", "note")
 
 
 def total_friction(friction: xr.DataArray) -> xr.DataArray:

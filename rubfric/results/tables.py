@@ -10,7 +10,6 @@ import xarray as xr
 
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
-from rubfric.results.scales import total_error, total_friction
 from rubfric.results.selection import check_variables
 
 # variable: heading
@@ -58,42 +57,6 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
     return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
-
-
-def total_table(campaign: xr.Dataset, aspect: float) -> pd.DataFrame:
-    """Return the friction of every scale, their sum and a bound on its error, where all scales were run.
-
-    Parameters
-    ----------
-    campaign : xarray.Dataset
-        As gathered by ``rubfric.results.campaign.collect``.
-    aspect : float
-        Height over width of the blocks.
-
-    Returns
-    -------
-    pandas.DataFrame
-        By pressure (MPa) and speed (mm/s).
-
-    Raises
-    ------
-    BrokenResult
-        If the campaign lacks a variable of the table.
-    """
-    check_variables(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
-    friction = campaign["friction_coefficient"].sel(aspect=aspect, drop=True)
-    total = total_friction(friction).to_dataframe("friction_total", dim_order=["pressure", "velocity"])
-    error = total_error(campaign["friction_coefficient_error"].sel(aspect=aspect, drop=True))
-    total["friction_total_error"] = error.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
-    for scale in campaign["scale"].values:
-        one = friction.sel(scale=scale, drop=True)
-        total[f"friction_scale_{scale}"] = one.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
-    pressed = campaign["nominal_compression"].sel(aspect=aspect, drop=True).max("scale")
-    total["nominal_compression"] = pressed.to_dataframe("x", dim_order=["pressure", "velocity"])["x"]
-    table = total.dropna(subset=["friction_total"]).reset_index()
-    scales = [name for name in table.columns if name.startswith("friction_scale_")]
-    columns = ["velocity", "pressure", *scales, "friction_total", "friction_total_error", "nominal_compression"]
-    return table[columns].rename(columns=_AXES)
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:

@@ -141,12 +141,19 @@ def _simulate(options: argparse.Namespace) -> int:
     virtual = _virtual(campaign.rig.virtual, options)
     from rubfric.results.campaign import read
     from rubfric.results.friction_map import FrictionMap
+    from rubfric.results.scales import WORDS
+    from rubfric.results.tables import read_table
     from rubfric.rig.virtual import simulate
 
     results = options.campaign or Path(campaign.results) / "campaign.nc"
-    if not results.is_file():
-        raise FileNotFoundError(f"there is no {results}: run snakemake first, or give --campaign FILE")
-    friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
+    totals = results.parent / "tables" / "friction_total.csv"
+    needed = totals if options.scale is None else results
+    if not needed.is_file():
+        raise FileNotFoundError(f"there is no {needed}: run snakemake first, or give --campaign FILE")
+    if options.scale is None:
+        friction = FrictionMap.from_totals(read_table(totals, WORDS))
+    else:
+        friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
     print(simulate(friction, virtual, options.pressure, options.weight, options.speed, options.output))
     return 0
 

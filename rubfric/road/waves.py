@@ -57,6 +57,17 @@ class WaveRoad:
         if change > _SAME:
             raise InvalidInput(_no_period(self.wavenumbers, parts, change))
 
+    @classmethod
+    def nearest(cls, amplitudes: Sequence[float], wavenumbers: Sequence[float], phases: Sequence[float]) -> WaveRoad:
+        """Return the road of the nearest wavenumbers that have a common period.
+
+        Parameters
+        ----------
+        amplitudes, wavenumbers, phases : sequence of float, shape (waves,)
+            mm, 1/mm and rad.
+        """
+        return cls(tuple(amplitudes), _nearest(wavenumbers, _parts(wavenumbers)[0]), tuple(phases))
+
     @cached_property
     def fundamental(self) -> float:
         """Wavenumber of the period, 1/mm: the largest of which all others are multiples."""
@@ -124,12 +135,16 @@ def _parts(wavenumbers: Sequence[float]) -> tuple[int, float]:
     return int(parts[first]), float(change[first])
 
 
+def _nearest(wavenumbers: Sequence[float], parts: int) -> tuple[float, ...]:
+    """Return the nearest multiples of a part of the coarsest wavenumber."""
+    unit = min(wavenumbers) / parts
+    return tuple(round(one / unit) * unit for one in wavenumbers)
+
+
 def _no_period(wavenumbers: Sequence[float], parts: int, change: float) -> str:
     """Say that a road has no period short enough, and which wavenumbers near its own have one."""
-    unit = min(wavenumbers) / parts
     given, nearest = (
-        ", ".join(checks.written(one) for one in some)
-        for some in (wavenumbers, [round(one / unit) * unit for one in wavenumbers])
+        ", ".join(checks.written(one) for one in some) for some in (wavenumbers, _nearest(wavenumbers, parts))
     )
     return (
         f"wavenumbers of the road are {given} 1/mm, but must have a common period that holds the finest wave at most "

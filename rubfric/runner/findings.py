@@ -1,4 +1,4 @@
-"""Headlines of the tables of a campaign: largest friction, largest error, number of warnings, verdicts."""
+"""Headlines of the tables of a campaign: largest friction, largest error, warnings, refusals, verdicts."""
 
 from __future__ import annotations
 
@@ -6,15 +6,30 @@ import csv
 import os
 from collections.abc import Iterable
 
+# How a total was obtained, in words.
+WAYS = {
+    "direct": "all scales at once",
+    "sum": "sum over the scales",
+    "cascade": "cascade from scale to scale",
+    "persson": "Persson's theory",
+}
+_MOST_NAMED = 5
+
 
 def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
-    """Return a sentence on the largest error and one on warnings; none without scenes.
+    """Return sentences on the largest error of single scales and of the whole road, on warnings and on refusals.
 
     Parameters
     ----------
     tables : iterable of path-like
-        Tables of single scales, as from ``results.tables.scale_table``; missing ones are skipped.
+        Tables of single scales, as from ``results.tables.scale_table``, and of totals, as from
+        ``results.totals.total_table``; missing ones are skipped.
     """
+    found = list(tables)
+    return [*_of_scales(found), *(line for path in found for line in _of_totals(path))]
+
+
+def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     scenes, warned, worst, where = 0, 0, -1.0, ""
     for path in tables:
         for row in _rows(path, "friction_coefficient_error", "warnings"):
@@ -30,6 +45,31 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
         *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
+
+
+def _of_totals(path: str | os.PathLike[str]) -> list[str]:
+    rows = _rows(path, "friction_total", "friction_total_error", "refused")
+    known = [row for row in rows if float(row["friction_total"])]
+    lines = []
+    if known:
+        worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
+        share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
+        lines.append(
+            f"largest error of the whole road's friction {100.0 * share:.2g} %, {WAYS[worst['way']]}, {_point(worst)}"
+        )
+    refused = [row for row in rows if int(row["refused"])]
+    if refused:
+        named = "; ".join(_point(row).removeprefix("at ") for row in refused[:_MOST_NAMED])
+        more = f"; and {len(refused) - _MOST_NAMED} more" if len(refused) > _MOST_NAMED else ""
+        lines.append(
+            f"scenes of the whole road were refused at {len(refused)} of {len(rows)} points: {named}{more}; why is in "
+            f"{os.fspath(path)}, column note"
+        )
+    return lines
+
+
+def _point(row: dict[str, str]) -> str:
+    return f"at {float(row['velocity_mm_per_s']):g} mm/s, {float(row['pressure_MPa']):g} MPa"
 
 
 def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
@@ -48,15 +88,15 @@ def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
 
 
 def highest(path: str | os.PathLike[str]) -> str:
-    """Return in words the largest friction in the table of all scales and where it is; empty for a missing table."""
-    rows = _rows(path, "friction_total")
+    """Return in words the largest friction in the table of totals, where and of what; empty for a missing table."""
+    rows = _rows(path, "friction_total", "way")
     if not rows:
         return ""
     top = max(rows, key=lambda row: float(row["friction_total"]))
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa"
+        f"and {float(top['pressure_MPa']):g} MPa ({WAYS[top['way']]})"
     )
 
 

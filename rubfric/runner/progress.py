@@ -11,6 +11,7 @@ from dataclasses import dataclass
 # Kinds of jobs as the log names them, singular and plural, in the order of the log.
 _WORDS = {
     "scene": ("scene", "scenes"),
+    "whole_scene": ("scene of the whole road", "scenes of the whole road"),
     "march": ("march", "marches"),
     "reading": ("batch of other readings", "batches of other readings"),
     "table": ("table", "tables"),
@@ -18,7 +19,7 @@ _WORDS = {
     "other": ("other job", "other jobs"),
 }
 # Kinds whose slow jobs are named, and whose last job gets a line in the log.
-_LONG = ("scene", "march")
+_LONG = ("scene", "whole_scene", "march")
 # The time left is estimated from so many finished jobs, and of each rule with more than this share of all jobs.
 _FEWEST, _SHARE = 3, 0.1
 

@@ -48,7 +48,7 @@ class RunLog(logging.Handler):
     targets : collection of str
         Rules without output, whose jobs do not count.
     tables : iterable of str
-        Tables of single scales, for errors and warnings.
+        Tables of single scales and of totals, for errors, warnings and refusals.
     first : iterable of str
         Files to open first, the most important first; those that are missing are not named.
     dry : callable
@@ -181,7 +181,7 @@ class RunLog(logging.Handler):
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
         finished = self._progress.finished
-        if "scale_table" in finished or "scene" not in finished:
+        if {"scale_table", "total_table"} & set(finished) or "scene" not in finished:
             lines += findings(self._tables)
         return lines
 

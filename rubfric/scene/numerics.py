@@ -88,7 +88,13 @@ class Numerics:
             high=1e-2,
         ),
     ] = 1e-6
-    output_columns: Annotated[int, _columns("Most columns of cells that the fields in a result file keep.")] = 128
+    output_columns: Annotated[
+        int,
+        _columns(
+            "Most columns of cells that the fields in a result file keep; on a road of many waves, for every four of "
+            "the finest."
+        ),
+    ] = 128
 
     def __post_init__(self) -> None:
         check_fields(self, "numerics.")

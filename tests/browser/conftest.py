@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import xarray as xr
 from selenium.webdriver.remote.webdriver import WebDriver
+from synthetic_campaign import make_totals
 from visit import MISSING, missing_program, requested_addresses, resize, start
 
 import rubfric
@@ -18,17 +20,21 @@ from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
+from rubfric.results.provenance import refusal
 
 CONFIG = Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml"
 SCALES, SPEEDS, PRESSURES, ASPECT = (1, 2), (1.0, 100.0, 1000.0, 10000.0), (0.5, 5.0), 0.75
+# The whole road is solved at the light load, except where it is refused, and not at all at the heavy one.
+REFUSED = (0, 10000.0, 0.5)
 
 
 @dataclass(frozen=True)
 class Explored:
-    """A page, the campaign it was made of, and its scenes by scale, speed and pressure."""
+    """A page, the campaign and the totals it was made of, and its scenes by scale (0: all), speed and pressure."""
 
     path: Path
     campaign: xr.Dataset
+    totals: pd.DataFrame
     scenes: dict[tuple[int, float, float], xr.Dataset]
 
     def at(self, name: str, scale: int, speed: float, pressure: float) -> float:
@@ -71,7 +77,25 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[int, float, f
 
 
 @pytest.fixture(scope="session")
-def explorer(solved: dict[tuple[int, float, float], Path], tmp_path_factory: pytest.TempPathFactory) -> Explorer:
+def on_whole_road(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[int, float, float], Path]:
+    """Return the results of the whole road at one pressure, the last a refusal."""
+    campaign, folder = rubfric.load(CONFIG), tmp_path_factory.mktemp("whole")
+    found = {}
+    for speed in SPEEDS:
+        scene = campaign.scene("all", speed, PRESSURES[0], aspect=ASPECT, preset="draft", kinematics="small")
+        place = (0, speed, PRESSURES[0])
+        found[place] = folder / f"{scene.name}.nc"
+        result = refusal(scene, "it was too fast") if place == REFUSED else rubfric.simulate(scene)
+        rubfric.write(result, found[place])
+    return found
+
+
+@pytest.fixture(scope="session")
+def explorer(
+    solved: dict[tuple[int, float, float], Path],
+    on_whole_road: dict[tuple[int, float, float], Path],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Explorer:
     """Return a function that makes the page of some of the scenes, of a rubber of any name."""
 
     def build(
@@ -81,11 +105,14 @@ def explorer(solved: dict[tuple[int, float, float], Path], tmp_path_factory: pyt
     ) -> Explored:
         files = {place: path for place, path in solved.items() if kept(place)}
         campaign = collection.collect(files.values()).assign_attrs(rubber=rubber)
-        scenes = {place: dataset.read(path) for place, path in files.items()}
+        roads = on_whole_road if len(campaign["scale"]) > 1 else {}
+        scenes = {place: dataset.read(path) for place, path in (files | roads).items() if place != REFUSED}
+        totals = make_totals(campaign, refused=[(REFUSED[2], REFUSED[1])], aspect=ASPECT)
+        of_road = collection.collect(roads.values()) if roads else None
         shown = [scene for place, scene in scenes.items() if pictured(place)]
         path = tmp_path_factory.mktemp("page") / "explorer.html"
-        write_page(page(payload(campaign, shown, ASPECT, "road")), path)
-        return Explored(path, campaign, scenes)
+        write_page(page(payload(campaign, totals, shown, ASPECT, "road", of_road)), path)
+        return Explored(path, campaign, totals, scenes)
 
     return build
 

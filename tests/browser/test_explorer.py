@@ -62,7 +62,7 @@ def curve(browser: WebDriver, pressure: float) -> dict[str, Any]:
 
 def test_page_needs_no_network_and_complains_of_nothing(browser: WebDriver, whole: Any) -> None:
     open_explorer(browser, whole.path, fresh=True)
-    for choice in ("scale=1", "scale=2&view=map&pressure=0.5&speed=1", "scale=total"):
+    for choice in ("scale=1", "scale=2&view=map&pressure=0.5&speed=1", "scale=total", "scale=whole"):
         show(browser, choice)
     addresses = requested_addresses(browser)
     assert whole.path.resolve().as_uri() in {address.partition("#")[0] for address in addresses}
@@ -154,7 +154,7 @@ def test_clicking_shows_a_scene(browser: WebDriver, whole: Any) -> None:
     assert_shows(browser, whole, 2, 10000.0, 5.0)
     show(browser, "scale=total&pressure=5&speed=1")
     click_at(browser, "picture", place(browser, "picture", 2, 0.05))
-    assert words(browser, "scene-title") == "All scales at 1000 mm/s, 5 MPa"
+    assert words(browser, "scene-title") == "Total at 1000 mm/s, 5 MPa"
 
 
 def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole: Any) -> None:
@@ -177,6 +177,8 @@ def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole:
     assert "pressure=5" in settled(browser)
     browser.execute_script("document.querySelector('input[name=place]:checked').focus()")
     press(browser, Keys.ARROW_RIGHT)
+    assert words(browser, "scene-title").startswith("Whole road")
+    press(browser, Keys.ARROW_RIGHT)
     assert_shows(browser, whole, 1, 100.0, 5.0)
     browser.execute_script("document.getElementById('chart').focus()")
     press(browser, Keys.ARROW_RIGHT)
@@ -187,21 +189,79 @@ def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole:
     assert words(browser, "summary").startswith("Scale 1 at 1000 mm/s, 0.5 MPa: friction 0.")
 
 
-def test_total_adds_the_scales_up(browser: WebDriver, whole: Any) -> None:
-    open_explorer(browser, whole.path, "scale=total&pressure=5&speed=1000")
-    parts = [whole.at("friction_coefficient", scale, 1000.0, 5.0) for scale in (1, 2)]
-    errors = [whole.at("friction_coefficient_error", scale, 1000.0, 5.0) for scale in (1, 2)]
-    assert_gives(words(browser, "headline"), sum(parts), sum(errors))
-    bars = [trace for trace in traces(browser, "picture") if trace.get("type") == "bar"]
+def total_at(whole: Any, speed: float, pressure: float) -> Any:
+    """Return the row of the table of totals."""
+    table = whole.totals
+    return table[(table["velocity_mm_per_s"] == speed) & (table["pressure_MPa"] == pressure)].iloc[0]
+
+
+def test_total_stands_beside_the_sum_of_the_scales(browser: WebDriver, whole: Any) -> None:
+    open_explorer(browser, whole.path, "scale=total&pressure=0.5&speed=1000")
+    row = total_at(whole, 1000.0, 0.5)
+    assert_gives(words(browser, "headline"), row["friction_direct"], row["friction_direct_error"])
+    assert "All scales at once on one road, with these phases. ± covers mesh and solver" in words(browser, "covers")
+    parts = [whole.at("friction_coefficient", scale, 1000.0, 0.5) for scale in (1, 2)]
+    drawn = traces(browser, "picture")
+    bars = [trace for trace in drawn if trace.get("type") == "bar"]
     assert [bar["y"][2] for bar in bars] == pytest.approx(parts, rel=1e-7)
-    rows = words(browser, "numbers")
-    for part, error, found in zip(parts, errors, MEASURED.finditer(rows), strict=False):
-        assert_gives(found[0], part, error)
+    heights = {trace["name"]: trace["y"][2] for trace in drawn if trace.get("name") in ("sum", "total")}
+    assert heights == pytest.approx({"sum": sum(parts), "total": 0.7 * sum(parts)}, rel=1e-7)
+    compared = next(trace for trace in traces(browser, "chart") if trace.get("name") == "sum of the scales")
+    assert compared["y"][2] == pytest.approx(sum(parts), rel=1e-7)
+    errors = [whole.at("friction_coefficient_error", scale, 1000.0, 0.5) for scale in (1, 2)]
+    wanted = [*zip(parts, errors, strict=True)]
+    for way in ("sum", "cascade", "persson", "direct"):
+        wanted.append((row[f"friction_{way}"], row[f"friction_{way}_error"]))
+    found = [one[0] for one in MEASURED.finditer(words(browser, "numbers"))]
+    for text, (friction, error) in zip(found, [*wanted, wanted[-1]], strict=True):
+        assert_gives(text, friction, error)
     small = browser.execute_script("return [...document.querySelectorAll('.small canvas')].map((one) => one.width)")
-    assert len(small) == 2
-    browser.find_elements("css selector", ".small")[1].click()
+    assert len(small) == 3
+    browser.find_elements("css selector", ".small")[2].click()
     settled(browser)
-    assert_shows(browser, whole, 2, 1000.0, 5.0)
+    assert_shows(browser, whole, 2, 1000.0, 0.5)
+
+
+def test_refused_total_is_crossed_and_says_what_its_error_covers(browser: WebDriver, whole: Any) -> None:
+    open_explorer(browser, whole.path, "scale=total&pressure=0.5&speed=10000")
+    row = total_at(whole, 10000.0, 0.5)
+    assert_gives(words(browser, "headline"), row["friction_sum"], row["friction_sum_error"])
+    said = words(browser, "covers")
+    assert said.startswith("Sum of the scales. ± covers mesh and solver")
+    assert "coupling of the scales" in said
+    assert "No solution." in said
+    assert "refused there" in words(browser, "marks")
+    assert "refused" in words(browser, "numbers")
+    crosses = traces(browser, "chart")[-1]
+    assert (crosses["x"], crosses["y"]) == ([10000.0], pytest.approx([row["friction_sum"]], rel=1e-7))
+
+
+def test_block_on_the_whole_road_is_shown_with_a_spot(browser: WebDriver, whole: Any) -> None:
+    open_explorer(browser, whole.path, "scale=whole&pressure=0.5&speed=1000")
+    scene = whole.scenes[0, 1000.0, 0.5]
+    friction, error = float(scene.friction_coefficient), float(scene.friction_coefficient_error)
+    assert_gives(words(browser, "headline"), friction, error)
+    assert words(browser, "scene-title").startswith("Whole road at 1000")
+    profile = next(trace for trace in traces(browser, "picture") if trace.get("yaxis") == "y2")
+    assert max(profile["y"]) == pytest.approx(float(scene.contact_pressure.max()), rel=1e-6)
+    frame = "const { shapes } = document.getElementById('picture').layout; return [shapes[0].x0, shapes[0].x1]"
+    left, right = browser.execute_script(frame)
+    assert right - left == pytest.approx(0.75 * 2.0 * np.pi / 35.0)
+    canvas = "return document.querySelector('#spot canvas').toDataURL()"
+    before = browser.execute_script(canvas)
+    browser.execute_script("choose({ spot: 0.2 })")
+    settled(browser)
+    browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+    moved = browser.execute_script(frame)
+    assert sum(moved) / 2.0 == pytest.approx(0.2)
+    assert browser.execute_script(canvas) != before
+    show(browser, "scale=whole&pressure=0.5&speed=10000")
+    assert words(browser, "headline") == "Refused"
+    assert words(browser, "covers") == "It was too fast."
+    assert browser.execute_script("return document.getElementById('spot').hidden")
+    show(browser, "scale=whole&pressure=5&speed=1")
+    assert words(browser, "headline") == "Not run"
+    assert not console_errors(browser)
 
 
 def test_address_brings_a_view_back(browser: WebDriver, whole: Any) -> None:
@@ -222,7 +282,7 @@ def test_narrow_screen_shows_all_of_it(browser: WebDriver, whole: Any) -> None:
     const right = (one) => one.getBoundingClientRect().right;
     return Math.max(...[...document.querySelectorAll("body *:not(svg *)")].map(right));
     """
-    for scale, view in product(("total", "1"), ("curves", "map")):
+    for scale, view in product(("total", "whole", "1"), ("curves", "map")):
         show(browser, f"scale={scale}&view={view}")
         assert browser.execute_script("return document.documentElement.scrollWidth") <= 360
         assert browser.execute_script(widest) <= 360.5
@@ -269,11 +329,11 @@ def test_gaps_are_shown(browser: WebDriver, explorer: Callable[..., Any]) -> Non
     page = explorer(kept=lambda place: place not in gaps, pictured=lambda place: place != (1, 1.0, 5.0))
     open_explorer(browser, page.path, "scale=1&pressure=0.5&speed=100")
     assert words(browser, "headline") == "Not run"
-    assert "1 of 4 speeds were not run" in words(browser, "peak")
+    assert "1 of 4 speeds have no result" in words(browser, "peak")
     assert curve(browser, 0.5)["y"][1] is None
     choose(browser, "place", "total")
     assert words(browser, "headline") == "Not run"
-    assert "2 of 4 speeds were not run" in words(browser, "peak")
+    assert "2 of 4 speeds have no result" in words(browser, "peak")
     open_explorer(browser, page.path, "scale=1&view=map&pressure=5&speed=1")
     assert_gives(
         words(browser, "headline"), *(page.at(f"friction_coefficient{part}", 1, 1.0, 5.0) for part in ("", "_error"))

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.image import imread
 from project_copy import Project
 
-FIGURES = ("fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7", "fig8", "fig9")
+FIGURES = ("fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7", "fig8", "fig9", "fig10", "fig11")
 
 
 @pytest.fixture(params=FIGURES)

@@ -113,6 +113,9 @@ def configs(draw: st.DrawFn) -> Config:
         "road": road,
         "plane": draw(st.sampled_from(PLANES)),
         "kinematics": draw(st.sampled_from(KINEMATICS)),
+        "multiscale": draw(st.sampled_from(["sum", "cascade", "persson"])),  # others need a road with a period
+        "multiscale_preset": draw(st.sampled_from(sorted(SHIPPED["presets"]))),
+        "phases": {"draws": draw(st.integers(0, 9)), "seed": draw(st.integers(0, 2**31))},
         "grid": grid,
         "aspect_study": {
             "aspects": draw(grids(positive)),

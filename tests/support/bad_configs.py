@@ -42,6 +42,7 @@ UNKNOWN_KEYS = [
 ]
 MISSING_KEYS = [
     Bad("plane", MISSING, "config lacks the key 'plane'"),
+    Bad("multiscale", MISSING, "config lacks the key 'multiscale'"),
     Bad("kinematics", MISSING, "config lacks the key 'kinematics'"),
     Bad("numerics.preset", MISSING, "numerics lacks the key 'preset'"),
     Bad("presets", MISSING, "config lacks the key 'presets'"),
@@ -156,6 +157,23 @@ BAD_MODELS = [
     Bad("numerics.dilatation", "meen", r"numerics.dilatation is 'meen', .* auto, pointwise, mean .did you mean mean"),
     Bad("presets.a b", {}, "name in presets is 'a b', but must be a word of letters, digits, '-' and '_'"),
     Bad("plane", "stresses", r"plane is 'stresses', but must be one of stress, strain \(did you mean stress\?\)"),
+    Bad(
+        "multiscale",
+        "sums",
+        r"multiscale is 'sums', but must be one of sum, cascade, direct, persson, auto .did you me",
+    ),
+    Bad(
+        "multiscale_preset", "fast", "multiscale_preset is 'fast', but must be one of draft, standard, reference", False
+    ),
+    Bad("phases.draws", -1, "phases.draws is -1, but must be a whole number of at least 0"),
+    Bad("phases.seed", 0.5, "phases.seed is 0.5, but must be a whole number of at least 0"),
+    Bad(
+        f"{ROAD}.1.wavenumber",
+        81.1234567,
+        r"roads.zhou2019 cannot be taken whole, as multiscale: direct does: .* 35, 81.0\d*, 199.\S*, 300.\S* 1/mm, "
+        "which .*; multiscale: sum does without$",
+        schema=False,
+    ),
     Bad("kinematics", "larg", r"kinematics is 'larg', but must be one of small, finite, auto"),
     Bad("rubber", "zhou", r"rubber is 'zhou', but must be one of zhou2019 \(did you mean zhou2019\?\)", schema=False),
     Bad("road", "gravel", "road is 'gravel', but must be one of zhou2019$", schema=False),

@@ -19,9 +19,9 @@ def friction_coefficient(scene: Scene, nodes: int = 2048) -> float:
     road, count = scene.road, COARSEST
     start = np.ones(count, dtype=bool)
     while True:
-        wavenumber = road.wavenumber * np.arange(1, count // 2 + 1)
+        wavenumber = 2.0 * np.pi / road.period * np.arange(1, count // 2 + 1)
         compliance = layer_compliance(scene.material, wavenumber, scene.velocity, scene.height, scene.plane)
-        spectrum, position = np.append(0.0, compliance), road.wavelength / count * np.arange(count)
+        spectrum, position = np.append(0.0, compliance), road.period / count * np.arange(count)
         solved = full_contact(spectrum, road.height(position), scene.pressure)
         if solved is None:
             solved = solve_contact(spectrum, road.height(position), scene.pressure, start, scene.name)

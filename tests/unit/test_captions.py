@@ -16,8 +16,8 @@ from jinja2 import Environment, StrictUndefined
 ROOT = Path(__file__).resolve().parents[2]
 TEXTS = sorted((ROOT / "workflow" / "report").glob("*.rst"))
 RULES = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "workflow" / "rules").glob("*.smk")))
-FIGURES = {"campaign_figure": ["fig1", "fig3", "fig6", "fig7"], "field_figure": ["fig2", "fig4"]}
-FIGURES["accuracy_figure"] = ["pareto", "calibration"]
+FIGURES = {"campaign_figure": ["fig1", "fig3", "fig6"], "field_figure": ["fig2", "fig4"]}
+FIGURES |= {"accuracy_figure": ["pareto", "calibration"], "total_figure": ["fig7", "fig10"]}
 
 
 def overlay(base: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:

@@ -129,7 +129,6 @@ def drawing(campaign: Campaign, paths: list[Path], folder: Path) -> float:
         "fig4": (fields, {}),
         "fig5": ([read(folder / f"march_{name}.nc") for name in campaign.marches()], {}),
         "fig6": (collected, {"aspect": campaign.aspect}),
-        "fig7": (collected, {"aspect": campaign.aspect, "pressure": campaign.figures.total_pressure}),
     }
     save = import_module("rubfric.figures.style").save
     draws = {name: import_module(f"rubfric.figures.{name}").draw for name in calls}

@@ -3,7 +3,9 @@
 PAPER = load("config/config.yaml")
 PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
 LADDERS = fixed_scenes(PAPER)
-DRAWN = drawn_scenes(PAPER, count=60, seed=2019)
+DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
+    PAPER, count=48, seed=2019
+)
 DRAWN_BATCHES = dict(enumerate(batches(list(DRAWN), 6)))
 ACCURACY = {
     name: f"{RESULTS}/accuracy/{name}.{kind}"

@@ -11,6 +11,7 @@ CLAIMS = {
 }
 JUDGED = {
     "campaign": f"{RESULTS}/campaign.nc",
+    "totals": f"{RESULTS}/tables/friction_total.csv",
     "profiles": [scene_file(name) for name in CAMPAIGN.field_scenes()],
     "marches": MARCH_FILES,
     "points": f"{RESULTS}/tables/rig_points.csv",
@@ -51,7 +52,7 @@ rule claims:
         script="workflow/scripts/judge_claims.py",
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
-            JUDGED["points"],
+            *(JUDGED["totals"], JUDGED["points"]),
             *(path for paths in JUDGED["readings"].values() for path in paths),
         ],
     output:
@@ -78,6 +79,7 @@ rule claims:
         f"{RESULTS}/logs/claims.log",
     params:
         criteria=criteria(CAMPAIGN),
+        roads={name: reading.whole_parameters() for name, reading in READINGS.items()},
         about={
             AS_CONFIGURED: CAMPAIGN.words(),
             **{name: reading.words() for name, reading in READINGS.items()},

@@ -17,7 +17,12 @@ from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
-from rubfric.studies.accuracy.scenes import batches, drawn_scenes, fixed_scenes
+from rubfric.studies.accuracy.scenes import (
+    batches,
+    drawn_scenes,
+    fixed_scenes,
+    whole_scenes,
+)
 
 RESULTS = CAMPAIGN.results
 RUBBER = CAMPAIGN.material.name
@@ -35,6 +40,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -43,6 +49,7 @@ wildcard_constraints:
 # one Snakemake that runs them on their node: it would start another for each.
 localrules:
     campaign,
+    whole_collection,
     scale_table,
     total_table,
     campaign_figure,
@@ -63,6 +70,7 @@ if workflow.remote_exec:
 
     localrules:
         scene,
+        whole_scene,
         reading,
         march,
         ladder,

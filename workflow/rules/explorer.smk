@@ -3,6 +3,11 @@ EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
 }
 
+# The whole road; of random roads the first.
+EXPLORED_WHOLE = {
+    name: scene for name, scene in WHOLE.items() if name == f"{DRAW}{scene.name}"
+}
+
 
 rule explorer:
     input:
@@ -10,7 +15,12 @@ rule explorer:
         page_files("explorer"),
         script="workflow/scripts/build_explorer.py",
         campaign=rules.campaign.output[0],
-        scenes=[scene_file(name) for name in EXPLORED],
+        table=rules.total_table.output.table,
+        whole=WHOLE_COLLECTION,
+        scenes=[
+            *(scene_file(name) for name in EXPLORED),
+            *(whole_file(name) for name in EXPLORED_WHOLE),
+        ],
     output:
         # The report links to it: browsers show no embedded page of more than 2 MB.
         f"{RESULTS}/explorer.html",
@@ -19,7 +29,9 @@ rule explorer:
     params:
         aspect=CAMPAIGN.aspect,
         road=ROAD,
-        digests=[scene.digest for scene in EXPLORED.values()],
+        digests=[
+            scene.digest for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+        ],
     message:
         "The campaign to explore in a browser: {output}"
     run:
@@ -28,6 +40,8 @@ rule explorer:
             log[0],
             output=output[0],
             campaign=input.campaign,
+            table=input.table,
+            whole=list(input.whole),
             scenes=list(input.scenes),
             digests=params.digests,
             aspect=params.aspect,

@@ -8,9 +8,35 @@ CAMPAIGN_FIGURES = {
     "fig1": STUDY,
     "fig3": STUDY,
     "fig6": {"aspect": CAMPAIGN.aspect},
-    "fig7": {"aspect": CAMPAIGN.aspect, "pressure": CAMPAIGN.figures.total_pressure},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
+# The whole road: its friction, from the table of totals; and the block on it, light and heavy, slow to fast.
+SHOWN = CAMPAIGN.figures.fields
+TOTAL_FIGURES = {
+    "fig7": {"aspect": CAMPAIGN.aspect, "pressure": CAMPAIGN.figures.total_pressure},
+    "fig10": {
+        "pressures": sorted({min(SHOWN.pressures), CAMPAIGN.figures.total_pressure})
+    },
+}
+WHOLE_FIGURES = ["fig11"] if WHOLE else []
+
+
+def thinned(values, most):
+    """Return at most so many of some values, evenly spread, the smallest and the largest among them."""
+    ordered = sorted(values)
+    last = len(ordered) - 1
+    return [ordered[round(place * last / (most - 1))] for place in range(most)]
+
+
+# Of random roads the first is shown.
+DRAW = next(iter(CAMPAIGN.whole_roads), "")
+SHOWN_WHOLE = {
+    name: scene
+    for name, scene in WHOLE.items()
+    if name == f"{DRAW}{scene.name}"
+    and scene.pressure in thinned(SHOWN.pressures, 2)
+    and scene.velocity in thinned(SHOWN.velocities, 3)
+}
 FIGURE_WORDS = {
     "fig1": "friction over speed, by height-to-width ratio",
     "fig2": "strain energy over the height",
@@ -18,11 +44,18 @@ FIGURE_WORDS = {
     "fig4": "the deformed block",
     "fig6": "friction over speed and pressure",
     "fig7": "friction of the whole road",
+    "fig10": "four ways to the friction of the whole road",
+    "fig11": "the block on the whole road",
 }
 RIG_FIGURES = ["fig8", "fig9"]
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
-    for figure in sorted([*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES])
+    for figure in sorted(
+        [
+            *(*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES),
+            *(*TOTAL_FIGURES, *WHOLE_FIGURES),
+        ]
+    )
     for kind in ("pdf", "png")
 ]
 
@@ -83,6 +116,68 @@ rule field_figure:
             figure=wildcards.figure,
             results=list(input.results),
             choice={},
+            outputs=list(output),
+            digests=params.digests,
+        )
+
+
+localrules:
+    total_figure,
+    whole_figure,
+
+
+rule total_figure:
+    input:
+        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        script="workflow/scripts/draw_total.py",
+        table=rules.total_table.output.table,
+        campaign=rules.campaign.output[0],
+    output:
+        **pictures(
+            "{figure}",
+            "../report/total_figure.rst",
+            lambda wildcards: FIGURE_WORDS[wildcards.figure],
+        ),
+    log:
+        f"{RESULTS}/logs/figures/{{figure}}.log",
+    wildcard_constraints:
+        figure="|".join(TOTAL_FIGURES),
+    params:
+        choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
+    message:
+        "Drawing {wildcards.figure}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            figure=wildcards.figure,
+            table=input.table,
+            campaign=input.campaign,
+            choice=params.choice,
+            outputs=list(output),
+        )
+
+
+rule whole_figure:
+    input:
+        package_files("rubfric.figures.fig11"),
+        script="workflow/scripts/draw_whole.py",
+        results=[whole_file(name) for name in SHOWN_WHOLE],
+    output:
+        **pictures(
+            "fig11", "../report/whole_figure.rst", lambda _: FIGURE_WORDS["fig11"]
+        ),
+    log:
+        f"{RESULTS}/logs/figures/fig11.log",
+    params:
+        digests=[scene.digest for scene in SHOWN_WHOLE.values()],
+    message:
+        "Drawing fig11"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            results=list(input.results),
             outputs=list(output),
             digests=params.digests,
         )

@@ -8,7 +8,7 @@ rule rig_points:
             "rubfric.rig.virtual", "rubfric.rig.summary", "rubfric.results.tables"
         ),
         script="workflow/scripts/measure_rig.py",
-        campaign=rules.campaign.output[0],
+        totals=rules.total_table.output.table,
         measured=RIG_FILES,
     output:
         points=report(
@@ -29,7 +29,6 @@ rule rig_points:
         f"{RESULTS}/logs/tables/rig_points.log",
     params:
         rig=CAMPAIGN.rig.model_dump(),
-        aspect=CAMPAIGN.aspect,
     message:
         "Test rig: {output.points}"
     run:
@@ -38,8 +37,7 @@ rule rig_points:
             log[0],
             points=output.points,
             rejected=output.rejected,
-            campaign=input.campaign,
-            aspect=params.aspect,
+            totals=input.totals,
             rig=params.rig,
         )
 
@@ -48,14 +46,13 @@ rule rig_figure:
     input:
         package_files("rubfric.figures.fig9"),
         script="workflow/scripts/draw_rig.py",
-        campaign=rules.campaign.output[0],
+        totals=rules.total_table.output.table,
         points=rules.rig_points.output.points,
     output:
         **pictures("fig9", "../report/fig9.rst", "friction on the test rig"),
     log:
         f"{RESULTS}/logs/figures/fig9.log",
     params:
-        aspect=CAMPAIGN.aspect,
         pressures=list(CAMPAIGN.rig.pressures),
         speeds=list(CAMPAIGN.rig.speeds),
     message:
@@ -64,9 +61,8 @@ rule rig_figure:
         jobs.run(
             input.script,
             log[0],
-            campaign=input.campaign,
+            totals=input.totals,
             points=input.points,
-            aspect=params.aspect,
             pressures=params.pressures,
             speeds=params.speeds,
             outputs=list(output),

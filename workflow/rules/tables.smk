@@ -43,10 +43,13 @@ rule scale_table:
 
 rule total_table:
     input:
-        package_files("rubfric.results.tables", "rubfric.pages.table"),
+        package_files(
+            "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
+        ),
         page_files("table"),
         script="workflow/scripts/tabulate_total.py",
         campaign=rules.campaign.output[0],
+        whole=WHOLE_COLLECTION,
     output:
         table=report(
             f"{RESULTS}/tables/friction_total.csv",
@@ -69,9 +72,9 @@ rule total_table:
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
     params:
-        aspect=CAMPAIGN.aspect,
+        road=CAMPAIGN.whole_parameters(),
     message:
-        "Friction of all scales: {output.table}"
+        "Friction of the whole road: {output.table}"
     run:
         jobs.run(
             input.script,
@@ -79,7 +82,8 @@ rule total_table:
             output=output.table,
             page=output.page,
             campaign=input.campaign,
-            aspect=params.aspect,
+            whole=list(input.whole),
+            road=params.road,
         )
 
 
@@ -88,4 +92,6 @@ rule tables:
     input:
         scene_files,
         rules.campaign.output,
+        whole_files,
+        WHOLE_COLLECTION,
         TABLES,

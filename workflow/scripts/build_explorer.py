@@ -1,13 +1,27 @@
 """Build the page on which the campaign is explored in a browser."""
 
+import netCDF4
+
+from rubfric.figures.totals import WORDS
 from rubfric.pages.explorer.data import payload
 from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
+from rubfric.results.provenance import REFUSAL
+from rubfric.results.tables import read_table
 
 
-def main(output: str, campaign: str, scenes: list[str], digests: list[str], aspect: float, road: str) -> None:
+def main(
+    output: str,
+    campaign: str,
+    table: str,
+    whole: list[str],
+    scenes: list[str],
+    digests: list[str],
+    aspect: float,
+    road: str,
+) -> None:
     """Write the page.
 
     Parameters
@@ -16,12 +30,26 @@ def main(output: str, campaign: str, scenes: list[str], digests: list[str], aspe
         Path of the page (HTML).
     campaign : str
         Path of the collection of all scenes (netCDF).
+    table : str
+        Path of the table of totals (CSV).
+    whole : list of str
+        Path of the collection of the whole road's scenes (netCDF), or nothing.
     scenes, digests : list of str
-        Paths of results with the height-to-width ratio ``aspect`` (netCDF), and the digests that they must have.
+        Paths of results with the height-to-width ratio ``aspect`` (netCDF), those of the whole road among them, and the
+        digests that they must have. A refusal has no picture.
     aspect : float
         Height over width of the blocks.
     road : str
         Name of the road.
     """
-    results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True))
-    write_page(page(payload(collection.read(campaign), results, aspect, road)), output)
+    results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True) if not refused(path))
+    of_road = collection.read(whole[0]) if whole else None
+    write_page(
+        page(payload(collection.read(campaign), read_table(table, WORDS), results, aspect, road, of_road)), output
+    )
+
+
+def refused(path: str) -> bool:
+    """Return whether a file holds the refusal of a scene."""
+    with netCDF4.Dataset(path) as stored:
+        return REFUSAL in stored.ncattrs()

@@ -8,7 +8,9 @@ from rubfric.pages.claims import claims_page
 from rubfric.pages.render import write_page
 from rubfric.results.campaign import read
 from rubfric.results.dataset import load
+from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table
+from rubfric.results.totals import WholeRoad
 from rubfric.studies.paper.judge import Criteria, judge
 from rubfric.studies.paper.verdicts import EVERY
 
@@ -16,10 +18,12 @@ from rubfric.studies.paper.verdicts import EVERY
 def main(
     outputs: dict[str, str],
     campaign: str,
+    totals: str,
     profiles: list[str],
     marches: list[str],
     points: str,
     readings: dict[str, list[str]],
+    roads: dict[str, dict[str, Any]],
     criteria: dict[str, Any],
     about: dict[str, str],
 ) -> None:
@@ -29,10 +33,13 @@ def main(
     ----------
     outputs : dict
         Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
-    campaign, profiles, marches, points : str or list of str
-        Paths of the collection of all scenes, of scenes and marches (netCDF), and of the table of the test rig (CSV).
+    campaign, totals, profiles, marches, points : str or list of str
+        Paths of the collection of all scenes (netCDF), of the table of totals (CSV), of scenes and marches (netCDF),
+        and of the table of the test rig (CSV).
     readings : dict of str to list of str
         Paths of the observations (CSV) of each other reading.
+    roads : dict
+        The parameters of ``WholeRoad`` in each other reading.
     criteria : dict
         The parameters of ``Criteria``.
     about : dict of str to str
@@ -40,6 +47,7 @@ def main(
     """
     claims, evidence = judge(
         read(campaign),
+        read_table(totals, WORDS),
         map(load, profiles),
         map(load, marches),
         read_table(points, ("run", "kind", "source")),
@@ -47,6 +55,7 @@ def main(
             reading: pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
             for reading, paths in readings.items()
         },
+        {reading: WholeRoad.from_parameters(road) for reading, road in roads.items()},
         Criteria(**criteria),
     )
     write_table(evidence, outputs["evidence"])

@@ -1,22 +1,22 @@
 """Reduce measured runs of the rig to friction over speed and pressure; without any, those of the virtual rig."""
 
 from rubfric.config.models import RigChoice
-from rubfric.results.campaign import read
 from rubfric.results.friction_map import FrictionMap
-from rubfric.results.tables import write_table
+from rubfric.results.scales import WORDS
+from rubfric.results.tables import read_table, write_table
 from rubfric.rig.reduction import point_table, reduce_files, rejected_table
 from rubfric.rig.settings import read_settings
 from rubfric.rig.summary import summary
 from rubfric.rig.virtual import measure, parts_of, plan, targets
 
 
-def main(points: str, rejected: str, campaign: str, aspect: float, rig: dict[str, object]) -> None:
-    """Write the CSV tables ``points`` and ``rejected``; ``rig`` is that of the config, ``campaign`` its netCDF file."""
+def main(points: str, rejected: str, totals: str, rig: dict[str, object]) -> None:
+    """Write the CSV tables ``points`` and ``rejected``; ``rig`` is the config's, ``totals`` the table of totals."""
     choice = RigChoice.read("rig", rig)
     if choice.data:
         runs = reduce_files(choice.data, read_settings(choice.columns))
     else:
-        runs = virtual_runs(choice, FrictionMap.from_campaign(read(campaign), aspect))
+        runs = virtual_runs(choice, FrictionMap.from_totals(read_table(totals, WORDS)))
     write_table(point_table(runs), points)
     write_table(rejected_table(runs), rejected)
     print(summary(runs))

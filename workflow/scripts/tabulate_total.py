@@ -1,13 +1,16 @@
-"""Write the table of all scales and their sum."""
+"""Write the table of all scales and of the whole road."""
+
+from typing import Any
 
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
-from rubfric.results.tables import total_table, write_table
+from rubfric.results.tables import write_table
+from rubfric.results.totals import WholeRoad, total_table
 
 
-def main(output: str, page: str, campaign: str, aspect: float) -> None:
-    """Write the friction of each scale and their sum.
+def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str, Any]) -> None:
+    """Write the friction of each scale and of the whole road, by all ways.
 
     Parameters
     ----------
@@ -15,13 +18,20 @@ def main(output: str, page: str, campaign: str, aspect: float) -> None:
         Paths of the table as CSV and as HTML.
     campaign : str
         Path of the collection of all scenes (netCDF).
-    aspect : float
-        Height over width of the blocks.
+    whole : list of str
+        Path of the collection of the whole road's scenes (netCDF), or nothing.
+    road : dict
+        The parameters of ``WholeRoad``.
     """
-    table = total_table(read(campaign), aspect)
+    about = WholeRoad.from_parameters(road)
+    table = total_table(read(campaign), read(whole[0]) if whole else None, about)
     write_table(table, output)
     words = (
-        f"Friction of every scale and their sum, for blocks {aspect:g} times as high as wide. The error of the sum "
-        "adds those of the scales, since one rule makes all their meshes; it is absolute."
+        f"Friction of every scale and of the whole road, for blocks {about.aspect:g} times as high as the coarsest "
+        "wave is long. The total is that of the column way: direct is all scales at once, sum the paper's sum over "
+        "the scales, cascade a cascade of pressures from scale to scale, persson Persson's theory. Its error is "
+        "absolute and has three parts: numerics; coupling, by how much a model of the interaction of the scales may "
+        "be off; and road, the standard error of the mean over random phases, where they were drawn. It does not "
+        "cover the data of the rubber or the choice of its finite-strain law."
     )
-    write_page(table_page(table, "Friction of all scales", words, group="pressure_MPa"), page)
+    write_page(table_page(table, "Friction of the whole road", words, group="pressure_MPa"), page)

@@ -5,32 +5,29 @@ Find the pressure p and the rigid offset d of a periodic surface with compliance
     gap = C p + d - s >= 0,    p >= 0,    p gap = 0,    mean(p) = nominal pressure.
 
 In small strain C is circulant: a convolution along the surface, given by its spectrum. Sliding viscoelastic
-surfaces have a C that is not symmetric, yet positive definite, so that the problem has one solution, and block
-principal pivoting (Judice and Pires 1994, Computers and Operations Research 21, 587) with single pivots as its
-fallback finds it after finitely many steps. Nothing is penalised.
+surfaces have a C that is not symmetric, yet positive definite, so that the problem has one solution, which changes
+continuously with load and profile. Block principal pivoting (Judice and Pires 1994, Computers and Operations Research
+21, 587) finds it in a few steps from a contact nearby: that on a mesh of half as many nodes, or, where it cycles, that
+with a profile nearby. Nothing is penalised.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 
-from rubfric.arrays import Complex, Flags, Real, Whole
+from rubfric.arrays import Complex, Flags, Real
 from rubfric.errors import NotConverged
+from rubfric.mechanics.block.surface import Convolution, Equilibrium, Surface, Unsolved
 
 MOST_STEPS = 500
 # Block pivots in a row that may fail to reduce the violations before single pivots take over.
 _PATIENCE = 10
-# Ratio of one load to the one before where they fall step by step, and the one next to 1 at which to give up; pivoting
-# steps at one of them, and in all.
-_FIRST_FACTOR, _LAST_FACTOR = 0.7, 0.999999
-_STEPS_ON_THE_WAY, _MOST_STEPS_ALONG = 60, 10_000
-# Nodes in contact that one dense system may have: 300 MB.
-_MOST_NODES = 6000
-# Violations below this share of the height scale, or of the pressure scale, are round-off.
-_ROUND_OFF = 1e-11
+# Steps after which another way is faster. Where a profile turns into another: all steps, the least share of the way.
+_STEPS_AT_ONCE, _MOST_STEPS_ALONG, _LEAST_SHARE = 30, 10_000, 1e-9
+# Most nodes of the first mesh, from coarse to fine.
+_COARSEST = 16
 
 
 @dataclass(frozen=True)
@@ -58,42 +55,6 @@ class Contact:
     def touching(self) -> Flags:
         """Nodes in contact, shape (n,)."""
         return self.pressure > 0.0
-
-
-class Surface(Protocol):
-    """A surface that yields to pressures linearly; both in the frame of the road."""
-
-    def matrix(self, inside: Whole) -> Real:
-        """Return C among the nodes ``inside``, shape (m, m), mm/MPa."""
-        ...
-
-    def deflection(self, pressure: Real) -> Real:
-        """Return C p, shape (n,), mm, from pressures in MPa."""
-        ...
-
-
-class Convolution:
-    """The surface of a block that is the same everywhere along the road.
-
-    Parameters
-    ----------
-    compliance : ndarray of complex, shape (n // 2 + 1,)
-        Spectrum of C, mm/MPa; the real part of its last entry counts where n is even.
-    nodes : int
-        n.
-    """
-
-    def __init__(self, compliance: Complex, nodes: int) -> None:
-        self._compliance = compliance
-        self._kernel = np.fft.irfft(compliance, nodes)
-
-    def matrix(self, inside: Whole) -> Real:
-        """Return C among the nodes ``inside``."""
-        return self._kernel[inside[:, None] - inside[None, :]]
-
-    def deflection(self, pressure: Real) -> Real:
-        """Return C p."""
-        return np.fft.irfft(self._compliance * np.fft.rfft(pressure), len(self._kernel))
 
 
 def full_contact(compliance: Complex, profile: Real, nominal: float) -> Contact | None:
@@ -129,12 +90,13 @@ def solve_contact(
     compliance: Complex,
     profile: Real,
     nominal: float,
-    start: Flags,
+    start: Flags | None = None,
     label: str = "contact",
 ) -> Contact:
-    """Solve the complementarity problem of a circulant C, as ``pivot`` does; along falling loads where that cycles.
+    """Solve the complementarity problem of a circulant C.
 
-    As the load falls from where it fills the road, the contact loses and gains few nodes at a time.
+    From a first guess as ``pivot`` does. Without one, or where that is too far off, from coarse to fine: first the
+    longest waves of the road on few nodes, then each mesh from the contact on the one before.
 
     Parameters
     ----------
@@ -144,7 +106,7 @@ def solve_contact(
         s, mm.
     nominal : float
         Nominal pressure, MPa.
-    start : ndarray of bool, shape (n,)
+    start : ndarray of bool, shape (n,), optional
         First guess, not empty; rather too large than too small.
     label : str
         Name that an error carries.
@@ -154,26 +116,74 @@ def solve_contact(
     NotConverged
         As ``pivot`` does.
     """
-    surface = Convolution(compliance, len(profile))
-    try:
-        return pivot(surface, profile, nominal, start, label, MOST_STEPS)
-    except NotConverged as error:
-        if error.step < MOST_STEPS:
-            raise
-    load = -float(_filling(compliance, profile).min())
-    touching, factor, steps = np.ones_like(start), _FIRST_FACTOR, MOST_STEPS
-    while True:
-        ahead = max(nominal, load * factor)
+    steps, sizes = 0, [len(profile)]
+    if start is not None:
+        most = min(_STEPS_AT_ONCE, MOST_STEPS)
         try:
-            found = pivot(surface, profile, ahead, touching, label, min(_STEPS_ON_THE_WAY, MOST_STEPS))
-        except NotConverged:
-            if factor > _LAST_FACTOR or steps > _MOST_STEPS_ALONG:
+            return pivot(Convolution(compliance, len(profile)), profile, nominal, start, label, most)
+        except NotConverged as error:
+            if not np.isfinite(error.residual):
                 raise
-            factor, steps = factor**0.5, steps + _STEPS_ON_THE_WAY
+            steps = error.step
+    while sizes[-1] > _COARSEST:
+        sizes.append((sizes[-1] + 1) // 2)
+    series = np.fft.rfft(profile)
+    near = Contact(np.full(sizes[-1], float(nominal)), np.zeros(sizes[-1]), 0.0, 0)
+    for nodes in reversed(sizes):
+        kept = nodes // 2 + 1
+        road = profile if nodes == len(profile) else np.fft.irfft(series[:kept] * (nodes / len(profile)), nodes)
+        near = follow(Convolution(compliance[:kept], nodes), road, nominal, _carried(near, nodes, nominal), label)
+        steps += near.iterations
+    return replace(near, iterations=steps)
+
+
+def _carried(contact: Contact, nodes: int, nominal: float) -> Contact:
+    """Return a contact on another number of nodes, each with the pressure or the gap of the one at its place."""
+    place = np.arange(nodes) * len(contact.pressure) // nodes
+    pressure = contact.pressure[place]
+    return Contact(pressure * (nominal / pressure.mean()), contact.gap[place], contact.offset, 0)
+
+
+def follow(surface: Surface, profile: Real, nominal: float, near: Contact, label: str = "contact") -> Contact:
+    """Solve the complementarity problem from any contact of the surface, with whatever profile.
+
+    Pivots start from its nodes. Where they cycle, its profile, which follows from C p and the gap, turns into the given
+    one in steps, so small that pivots find each contact from the one before.
+
+    Parameters
+    ----------
+    surface : Surface
+        C.
+    profile : ndarray, shape (n,)
+        s, mm.
+    nominal : float
+        Nominal pressure, MPa.
+    near : Contact
+        Pressure and gap at n nodes, one of them zero at each; of the same nominal pressure.
+    label : str
+        Name that an error carries.
+
+    Raises
+    ------
+    NotConverged
+        As ``pivot`` does, where the least step is too long or all steps are too many.
+    """
+    begin = surface.deflection(near.pressure) - near.gap
+    touching, share, ahead, steps = near.touching, 0.0, 1.0, 0
+    most = min(_STEPS_AT_ONCE, MOST_STEPS)
+    while True:
+        aim = min(share + ahead, 1.0)
+        try:
+            found = pivot(surface, (1.0 - aim) * begin + aim * profile, nominal, touching, label, most)
+        except NotConverged as error:
+            steps, ahead = steps + error.step, ahead / 4.0
+            if not np.isfinite(error.residual) or ahead < _LEAST_SHARE or steps > _MOST_STEPS_ALONG:
+                raise
             continue
-        load, touching, factor, steps = ahead, found.touching, factor**1.5, steps + found.iterations
-        if load == nominal:
+        steps += found.iterations
+        if aim == 1.0:
             return replace(found, iterations=steps)
+        share, ahead, touching = aim, 2.0 * ahead, found.touching
 
 
 def pivot(
@@ -205,25 +215,24 @@ def pivot(
     ------
     NotConverged
         After ``most_steps`` steps, with the number of nodes that still violate a condition; at once where the
-        system is singular, its solution is not finite, or more nodes touch than can be solved at once.
+        system is singular, its solution is not finite, or too many nodes touch for one that only a dense system solves.
     """
     nodes = len(profile)
     height_scale = float(np.ptp(profile)) or 1.0
     touching, best, patience = start.copy(), nodes + 1, _PATIENCE
     for step in range(1, most_steps + 1):
         inside = np.flatnonzero(touching)
-        if len(inside) > _MOST_NODES:
-            raise NotConverged(label, step, len(inside), f"number of nodes in contact (at most {_MOST_NODES})")
         try:
-            pressure, offset = _equilibrium(surface, profile, nominal, inside)
-        except np.linalg.LinAlgError as error:
-            raise NotConverged(label, step, np.inf, "condition of the contact system") from error
+            held, pressure = Equilibrium(surface, nodes, inside), np.zeros(nodes)
+            pressure[inside], offset = held.solve(profile[inside], nominal * nodes)
+        except Unsolved as error:
+            raise NotConverged(label, step, *error.args) from error
         gap = surface.deflection(pressure) + offset - profile
         if not (np.isfinite(pressure).all() and np.isfinite(gap).all()):
             raise NotConverged(label, step, np.nan, "contact pressure or gap")
         gap[inside] = 0.0
-        pulls = touching & (pressure < -_ROUND_OFF * np.abs(pressure).max())
-        pierces = ~touching & (gap < -_ROUND_OFF * height_scale)
+        pulls = touching & (pressure < -held.round_off * np.abs(pressure).max())
+        pierces = ~touching & (gap < -held.round_off * height_scale)
         violated = pulls | pierces
         count = int(np.count_nonzero(violated))
         if count == 0:
@@ -239,17 +248,3 @@ def pivot(
         if not touching.any():
             touching[int(np.argmin(gap))] = True
     raise NotConverged(label, most_steps, count, "number of surface nodes that violate contact")
-
-
-def _equilibrium(surface: Surface, profile: Real, nominal: float, inside: Whole) -> tuple[Real, float]:
-    """Return the pressure that holds the nodes ``inside`` on the road under the load, and the offset."""
-    count = len(inside)
-    # The load is an equation of the system: where all nodes touch, pressures alone would be unknown by a constant.
-    system = np.zeros((count + 1, count + 1))
-    system[:count, :count] = surface.matrix(inside)
-    unit = float(np.abs(system.diagonal()).max())
-    system[:count, count] = system[count, :count] = unit
-    held = np.linalg.solve(system, np.append(profile[inside], unit * nominal * len(profile)))
-    pressure = np.zeros_like(profile)
-    pressure[inside] = held[:count]
-    return pressure, float(unit * held[count])

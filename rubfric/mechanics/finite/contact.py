@@ -12,14 +12,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.block.contact import Contact, pivot
+from rubfric.mechanics.block.surface import inverse
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness, Stressed
-from rubfric.mechanics.finite.circulant import Circulant
+from rubfric.mechanics.finite.circulant import Circulant, RightSide
 from rubfric.road.road import Road
 
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
@@ -82,6 +84,10 @@ class Correction:
         Where the surface nodes are, x in mm, and the road's slope there.
     state : Stressed
         The state of the points under the fields.
+    right : RightSide
+        What the block answers to beside the road.
+    above, height : ndarray, shape (columns,)
+        Height of the nodes above the road, mm, and that to which T's answer to ``right`` takes them, but for an offset.
     """
 
     step: Fields
@@ -89,6 +95,14 @@ class Correction:
     position: Real
     slope: Real
     state: Stressed
+    right: RightSide
+    above: Real
+    height: Real
+
+    @property
+    def normal(self) -> Real:
+        """Normal of the road where nodes are, of unit height, shape (2, columns)."""
+        return np.stack((-self.slope, np.ones_like(self.slope)))
 
 
 class SlopedSurface:
@@ -102,8 +116,15 @@ class SlopedSurface:
     def matrix(self, inside: Whole) -> Real:
         """Return the compliance among the nodes ``inside``, mm/MPa."""
         lag = inside[:, None] - inside[None, :]
-        normal = self._normal[:, inside]
-        return np.einsum("ai,abij,bj->ij", normal, self._kernel[:, :, lag], normal, optimize=True)
+        (along, up), kernel = self._normal[:, inside], self._kernel
+        by_height = along[:, None] * kernel[0, 1][lag]
+        by_height += up[:, None] * kernel[1, 1][lag]
+        by_height *= up
+        matrix: Real = along[:, None] * kernel[0, 0][lag]
+        matrix += up[:, None] * kernel[1, 0][lag]
+        matrix *= along
+        matrix += by_height
+        return matrix
 
     def deflection(self, pressure: Real) -> Real:
         """Return how far the surface yields along the normals, mm."""
@@ -111,6 +132,18 @@ class SlopedSurface:
         moved = np.einsum("abn,bn->an", self._compliance, force)
         answer: Real = (self._normal * np.fft.irfft(moved, len(pressure), axis=-1)).sum(axis=0)
         return answer
+
+    def pressing(self, deflection: Real) -> Real:
+        """Return about the pressure that makes a deflection: as if the surface were as soft one way as the other."""
+        steepness, inverted = self._inverse
+        return np.fft.irfft(inverted * np.fft.rfft(deflection / steepness), len(deflection)) / steepness
+
+    @cached_property
+    def _inverse(self) -> tuple[Real, Complex]:
+        """Length of the normals, and the spectrum of the inverse of the mean compliance, MPa/mm."""
+        normal = self._normal
+        mean = 0.5 * (self._compliance[0, 0] + self._compliance[1, 1])
+        return np.hypot(*normal), inverse(mean, normal.shape[1])
 
 
 class SlidingContact:
@@ -123,11 +156,17 @@ class SlidingContact:
         Displacement, mm, and relative change of thickness that count as one in the measure of ``size``.
     label : str
         Name that errors carry.
+
+    Attributes
+    ----------
+    height : float
+        The displacement that counts as one, mm.
     """
 
     def __init__(self, finite: FiniteBlock, scale: tuple[float, float], label: str) -> None:
         self.finite = finite
         self.label = label
+        self.height = scale[0]
         self._scale = (*scale, _VOLUME * scale[1])
         rest = finite.at_rest()
         self._shapes = (rest.displacement.shape, rest.log_thickness.shape, rest.volume.shape)
@@ -161,12 +200,29 @@ class SlidingContact:
         free = circulant.surface(right)
         position = finite.block.column_positions + fields.displacement[0, 0]
         slope = load.slope(position)
-        height = fields.displacement[1, 0] - load.height(position) - slope * free[0] + free[1]
+        above = fields.displacement[1, 0] - load.height(position)
+        height = above - slope * free[0] + free[1]
         surface = SlopedSurface(circulant.compliance, slope, width)
         contact = pivot(surface, -height, load.pressure, touching, self.label, _MOST_PIVOTS)
-        step = circulant.solve(right, np.stack((-slope, np.ones_like(slope))) * contact.pressure * width)
-        step.displacement[1] += contact.offset
-        return Correction(step, contact, position, slope, state)
+        step = self.yielding(circulant, right, slope, contact.pressure, contact.offset)
+        return Correction(step, contact, position, slope, state, right, above, height)
+
+    def yielding(self, circulant: Circulant, right: RightSide, slope: Real, pressure: Real, offset: float) -> Fields:
+        """Return what the averaged block does under a load, and under pressures of the road and a rigid offset.
+
+        Parameters
+        ----------
+        circulant : Circulant
+        right : RightSide
+        slope, pressure : ndarray, shape (columns,)
+            Of the road, dimensionless and MPa.
+        offset : float
+            mm.
+        """
+        normal = np.stack((-slope, np.ones_like(slope)))
+        step = circulant.solve(right, normal * pressure * self.finite.block.column_width)
+        step.displacement[1] += offset
+        return step
 
     def size(self, step: Fields) -> float:
         """Return the root mean square of a step over its ``scale``."""
@@ -188,7 +244,7 @@ class SlidingContact:
 
 
 class Linearised:
-    """The derivative of u - T(u) while the contact nodes stay what they are.
+    """The derivative of u - T(u) while given contact nodes stay on the road and no other node touches it.
 
     Parameters
     ----------
@@ -200,38 +256,69 @@ class Linearised:
     correction : Correction
         T at the fields about which it is linearised.
     load : Load
+    touching : ndarray of bool, shape (columns,)
+        The contact nodes.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        Where the contact nodes leave the block loose.
     """
 
     def __init__(
-        self, problem: SlidingContact, circulant: Circulant, stiffness: Stiffness, correction: Correction, load: Load
+        self,
+        problem: SlidingContact,
+        circulant: Circulant,
+        stiffness: Stiffness,
+        correction: Correction,
+        load: Load,
+        touching: Flags,
     ) -> None:
-        finite = problem.finite
-        self._finite, self._circulant, self._stiffness = finite, circulant, stiffness
-        self._normal = np.stack((-correction.slope, np.ones_like(correction.slope)))
+        self._problem, self._circulant, self._stiffness = problem, circulant, stiffness
+        self._correction, self._load = correction, load
+        self._normal = correction.normal
+        self._width = width = problem.finite.block.column_width
         # The normal turns as nodes move along the road: a stiffness of the surface.
-        force = correction.contact.pressure * finite.block.column_width
-        self._turning = force * load.curvature(correction.position)
-        self._inside = np.flatnonzero(correction.contact.touching)
+        self._turning = correction.contact.pressure * width * load.curvature(correction.position)
+        self._touching = touching
+        self._inside = np.flatnonzero(touching)
         count = len(self._inside)
         saddle = np.ones((count + 1, count + 1))
-        width = finite.block.column_width
         surface = SlopedSurface(circulant.compliance, correction.slope, width)
-        saddle[:count, :count] = surface.matrix(self._inside) / width
+        saddle[:count, :count] = surface.matrix(self._inside)
         saddle[count, count] = 0.0
         self._saddle = lu_factor(saddle, check_finite=False)
 
-    def __call__(self, step: Fields) -> Fields:
-        """Return the change of u - T(u) under a change of u."""
-        finite, circulant = self._finite, self._circulant
+    def rest(self) -> tuple[Fields, Real]:
+        """Return T(u) - u with these contact nodes, and the pressures of the road, MPa, that go with it."""
+        known = self._correction
+        if np.array_equal(known.contact.touching, self._touching):
+            return known.step, known.contact.pressure
+        total = self._load.pressure * len(self._touching)
+        pressure, offset = self._held(-known.height[self._inside], total)
+        return self._problem.yielding(self._circulant, known.right, known.slope, pressure, offset), pressure
+
+    def change(self, step: Fields) -> tuple[Fields, Real]:
+        """Return the change of u - T(u) under a change of u, and that of the pressures of the road, MPa."""
+        finite, circulant = self._problem.finite, self._circulant
         change, excess = finite.change(self._stiffness, step)
         forces = finite.forces(change[:4])
         forces[0, 0] += self._turning * step.displacement[0, 0]
         right = circulant.right_side(forces, change[4:], excess)
         # Contact forces keep the contact nodes at their distance from the road, and carry no more than before.
         missed = (self._normal * (step.displacement[:, 0] - circulant.surface(right))).sum(axis=0)[self._inside]
-        held = lu_solve(self._saddle, np.append(-missed, 0.0), check_finite=False)
-        contact = np.zeros_like(self._turning)
-        contact[self._inside] = held[:-1]
-        answer = circulant.solve(right, -self._normal * contact)
-        answer.displacement[1] -= held[-1]
-        return answer
+        pressure, offset = self._held(missed, 0.0)
+        answer = self._problem.yielding(circulant, right, self._correction.slope, pressure, offset)
+        return answer, -pressure
+
+    def along_normals(self, step: Fields) -> Real:
+        """Return how far a step takes the nodes from a road that is straight under them, mm, shape (columns,)."""
+        moved: Real = (self._normal * step.displacement[:, 0]).sum(axis=0)
+        return moved
+
+    def _held(self, moved: Real, total: float) -> tuple[Real, float]:
+        """Return pressures, MPa, of a given sum that move the contact nodes along the normals, and the offset, mm."""
+        held = lu_solve(self._saddle, np.append(moved, total), check_finite=False)
+        pressure = np.zeros(len(self._touching))
+        pressure[self._inside] = held[:-1]
+        return pressure, float(held[-1])

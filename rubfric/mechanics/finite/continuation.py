@@ -1,8 +1,9 @@
 """Ways to a solution in finite strain: at once, along a growing road, along a growing load; recorded as they are tried.
 
-Newton's method finds most contacts from the block pressed on a flat road. Where it stalls, the road is raised from
-flat to its height in steps that adapt, each starting from the last two, and if that stalls as well the load is
-raised instead.
+Newton's method finds most contacts on one wave from the block pressed on a flat road. Where it stalls, the road is
+raised from flat to its height in steps that adapt, each starting from the last two. If that stalls as well, the road is
+raised under a light load, and then the load. On many waves that is the way at once: under a heavy load the finest of
+them cannot be raised. A step is made so short that the fields that it starts from are near to a solution.
 """
 
 from __future__ import annotations
@@ -13,20 +14,24 @@ from dataclasses import dataclass, replace
 from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
+from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Load, SlidingContact
-from rubfric.mechanics.finite.newton import Solved, Stalled, newton
+from rubfric.mechanics.finite.newton import Solved, Stalled, newton, starting_distance
+from rubfric.road.road import finest_waves
 
 # What is solved on the way needs to be near, not exact.
-_ON_THE_WAY = 1e-4
+_ON_THE_WAY = 1e-2
 _FIRST_SHARE = 0.5
-_SMALLEST_SHARE = 1e-4
+_SMALLEST_SHARE = 1e-3
+# Newton's method starts no farther from a solution on the way, if a step of this share of the one wished for does it.
+_NEAR, _SHORTEST = 0.3, 0.05
 # A step on the way that took at most so many Newton steps is followed by a longer one.
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
 _LIGHT = 0.1
-# Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds. A Newton step
-# costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
-_MOST_WORK, _PER_STEP, _PER_APPLICATION = 3.0e7, 10, 5000
+# Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds on one wave. A
+# Newton step costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
+_MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 3.0e8, 10, 5000
 
 _SPENT = "a scene has only so much work, and this one has had it: most likely it has no solution under so heavy a load"
 
@@ -37,6 +42,10 @@ class Start:
 
     fields: Fields
     touching: Flags
+
+
+# A solution on the way, and the share at which it is one.
+_Point = tuple[float, Fields]
 
 
 class AttemptLog:
@@ -102,24 +111,24 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
         Where every way stalls.
     """
     columns = problem.finite.block.columns
-    try:
-        return attempt(problem, flat, load, tolerance, log, f"{columns} columns, at once")
-    except Stalled:
-        pass
+    way = Way(problem, tolerance, log)
     rise = f"{columns} columns, road at "
-    try:
-        return _follow(problem, flat, lambda share: replace(load, share=share), tolerance, log, rise)
-    except Stalled:
-        pass
+    if finest_waves(load.road) == 1:
+        try:
+            return attempt(problem, flat, load, tolerance, log, f"{columns} columns, at once")
+        except Stalled:
+            pass
+        try:
+            return way.follow(flat, lambda share: replace(load, share=share), rise)
+        except Stalled:
+            pass
     light = replace(load, pressure=_LIGHT * load.pressure)
     try:
-        first = _follow(problem, flat, lambda share: replace(light, share=share), _ON_THE_WAY, log, rise)
-        return _follow(
-            problem,
+        start = Start(problem.finite.pressed(light.pressure), flat.touching)
+        first = way.follow(start, lambda share: replace(light, share=share), rise, last=_ON_THE_WAY)
+        return way.follow(
             Start(first.fields, first.correction.contact.touching),
-            lambda share: replace(load, pressure=(_LIGHT + share * (1.0 - _LIGHT)) * load.pressure),
-            tolerance,
-            log,
+            lambda share: replace(load, pressure=_LIGHT ** (1.0 - share) * load.pressure),
             f"{columns} columns, load at ",
         )
     except Stalled as stalled:
@@ -158,7 +167,7 @@ def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float,
         solved = newton(problem, start.fields, load, start.touching, tolerance)
     except Stalled as stalled:
         log.left(problem, what, stalled)
-        if log.work > _MOST_WORK:
+        if log.work > (_MOST_WORK if finest_waves(load.road) == 1 else _MOST_WORK_MANY):
             measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
             raise NotConverged(problem.label, log.steps, stalled.residual, measure, _SPENT) from stalled
         raise
@@ -166,45 +175,80 @@ def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float,
     return solved
 
 
-def _follow(
-    problem: SlidingContact,
-    start: Start,
-    loads: Callable[[float], Load],
-    tolerance: float,
-    log: AttemptLog,
-    what: str,
-) -> Solved:
-    """Follow loads(share) from share 0, where ``start`` solves it, to 1; Stalled where steps become too short."""
-    share, length = 0.0, _FIRST_SHARE
-    here, before = start, None
-    while True:
-        ahead = min(1.0, share + length)
-        guess = here.fields if before is None else _extrapolate(before, (share, here.fields), ahead)
-        last = ahead == 1.0
-        try:
-            solved = attempt(
-                problem,
-                Start(guess, here.touching),
-                loads(ahead),
-                tolerance if last else _ON_THE_WAY,
-                log,
-                f"{what}{ahead:.4g}",
-            )
-        except Stalled:
-            length = 0.5 * (ahead - share)
-            if length < _SMALLEST_SHARE:
-                raise
-            continue
-        if last:
-            return solved
-        before = (share, here.fields)
-        share, here = ahead, Start(solved.fields, solved.correction.contact.touching)
-        if solved.steps <= _EASY:
-            length *= _LONGER
+class Way:
+    """A way from one solution to another.
+
+    Parameters
+    ----------
+    problem : SlidingContact
+    tolerance : float
+        As for ``newton``, at the end of the way.
+    log : AttemptLog
+        Gets a line for every attempt.
+    """
+
+    def __init__(self, problem: SlidingContact, tolerance: float, log: AttemptLog) -> None:
+        self._problem, self._tolerance, self._log = problem, tolerance, log
+
+    def follow(self, start: Start, loads: Callable[[float], Load], what: str, last: float | None = None) -> Solved:
+        """Follow loads(share) from share 0 to 1.
+
+        Parameters
+        ----------
+        start : Start
+            Near the solution at share 0.
+        loads : callable
+            Takes a share to a load.
+        what : str
+            Name of the attempts in the log, to which the share is added.
+        last : float, optional
+            Tolerance at the end, instead of that of the way.
+
+        Raises
+        ------
+        Stalled
+            Where steps become too short.
+        """
+        share, length = 0.0, _FIRST_SHARE
+        here, before = start, None
+        while True:
+            ahead = self._near(before, (share, here), min(1.0, share + length), loads)
+            guess = _extrapolate(before, (share, here.fields), ahead)
+            tolerance = _ON_THE_WAY if ahead < 1.0 else self._tolerance if last is None else last
+            try:
+                begun = Start(guess, here.touching)
+                solved = attempt(self._problem, begun, loads(ahead), tolerance, self._log, f"{what}{ahead:.4g}")
+            except Stalled:
+                length = 0.5 * (ahead - share)
+                if length < _SMALLEST_SHARE:
+                    raise
+                continue
+            if ahead == 1.0:
+                return solved
+            before, length = (share, here.fields), ahead - share
+            share, here = ahead, Start(solved.fields, solved.correction.contact.touching)
+            if solved.steps <= _EASY:
+                length *= _LONGER
+
+    def _near(
+        self, before: _Point | None, here: tuple[float, Start], ahead: float, loads: Callable[[float], Load]
+    ) -> float:
+        """Return the share up to ``ahead`` at which the extrapolated fields are near a solution."""
+        share, (fields, touching) = here[0], (here[1].fields, here[1].touching)
+        shortest = share + _SHORTEST * (ahead - share)
+        circulant: Circulant | None = None
+        while True:
+            guess = _extrapolate(before, (share, fields), ahead)
+            distance, circulant = starting_distance(self._problem, guess, loads(ahead), touching, circulant)
+            if distance <= _NEAR or ahead <= shortest:
+                return ahead
+            ahead = share + (ahead - share) * min(max(_NEAR / distance, 0.4), 0.8)
 
 
-def _extrapolate(before: tuple[float, Fields], here: tuple[float, Fields], ahead: float) -> Fields:
-    """Return the fields on the line through two solutions."""
+def _extrapolate(before: _Point | None, here: _Point, ahead: float) -> Fields:
+    """Return the fields on the line through two solutions; the last one where there is no other."""
+    if before is None:
+        return here[1]
     (first, old), (second, new) = before, here
     back = new.moved(old, -1.0)
     return new.moved(back, (ahead - second) / (second - first))

@@ -27,7 +27,7 @@ def evaluate_finite(solution: FiniteSolution) -> Energies:
     scene, block, finite = solution.scene, solution.block, solution.finite
     lost, stored = dissipated_and_stored(finite, solution.correction.state.deformation)
     force = scene.pressure * block.width
-    stride = output_stride(block.columns, scene.numerics.output_columns)
+    stride = output_stride(scene, block.columns, block.rows + 1)
     cells = (stored * finite.weights).sum(axis=(0, 2)) / (finite.weights.sum(axis=(0, 2)) * block.columns)
     return Energies(
         stress_power=solution.friction.stress_power,

@@ -9,27 +9,29 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
 
-from rubfric.arrays import Flags, Real
+from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
+from rubfric.mechanics.finite.direction import Direction, newton_direction
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
 # A direction that took more Krylov iterations is worth a new average of the tangent, by default.
 _WORTH = 6
-_MOST_KRYLOV = 60
 _SHORTEST_STEP = 1.0 / 16.0
 # Share of the decrease of a full linear step that a step must bring.
 _DECREASE = 0.1
+# So many steps must bring the residual below this share of what it was.
+_WATCHED, _SLOWEST = 3, 0.5
 # A step may end above the last residual, as long as it ends below the larger of so many of them.
 _MEMORY = 2
 # GMRES solves to a share of the residual: the loosest where residuals fall slowly, in proportion where they fall fast.
-# Far from the solution an exact direction leads astray: along soft modes of the tangent there, not of the contact.
+# Above some residual an exact direction leads astray: along soft modes of the tangent there, not of the contact.
 _LOOSEST, _TIGHTEST, _IN_PROPORTION = 0.03, 0.01, 0.5
+_FAR, _LOOSEST_FAR = 0.05, 0.1
 
 
 class Stalled(RuntimeError):
@@ -111,6 +113,31 @@ def newton(
         raise Stalled(str(error), len(residuals), 0, residuals[-1] if residuals else np.inf) from error
 
 
+def starting_distance(
+    problem: SlidingContact, fields: Fields, load: Load, touching: Flags, circulant: Circulant | None = None
+) -> tuple[float, Circulant | None]:
+    """Return the size of u - T(u) of fields, infinite where there is no T(u), and the averaged tangent used.
+
+    Parameters
+    ----------
+    problem : SlidingContact
+    fields : Fields
+    load : Load
+    touching : ndarray of bool, shape (columns,)
+        First guess of the contact nodes.
+    circulant : Circulant, optional
+        An averaged tangent, instead of that of these fields.
+    """
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
+            if circulant is None:
+                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
+                circulant = Circulant(problem.finite, average, load.pressure)
+            return problem.size(problem.correct(circulant, fields, load, touching).step), circulant
+    except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
+        return np.inf, circulant
+
+
 def _iterate(
     problem: SlidingContact,
     start: Fields,
@@ -139,63 +166,58 @@ def _iterate(
             return Solved(fields, correction, tuple(residuals), krylov, circulant)
         if len(residuals) > _MOST_STEPS:
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
+        if len(residuals) > _WATCHED and size > _SLOWEST * residuals[-1 - _WATCHED]:
+            raise Stalled("the residual falls too slowly", len(residuals) - 1, krylov, size)
         stiffness = problem.finite.stiffness(fields, correction.state)
-        linear = Linearised(problem, circulant, stiffness, correction, load)
-        direction, count = _direction(problem, linear, correction.step, _forcing(residuals))
-        krylov += count
-        ahead = _advance(problem, circulant, fields, direction, load, correction, max(residuals[-_MEMORY:]))
+        found = newton_direction(
+            problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals)
+        )
+        krylov += found.krylov
+        ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))
         if ahead is None:
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
         fields, correction = ahead
         touching = correction.contact.touching
-        if count > worth and problem.size(correction.step) > tolerance:
+        if found.most > worth and problem.size(correction.step) > tolerance:
             circulant = None
 
 
 def _forcing(residuals: list[float]) -> float:
     """Return the share of the residual to which GMRES should solve."""
+    loosest = _LOOSEST_FAR if residuals[-1] > _FAR else _LOOSEST
     if len(residuals) < 2:
-        return _LOOSEST
-    return min(_LOOSEST, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
-
-
-def _direction(problem: SlidingContact, linear: Linearised, right: Fields, forcing: float) -> tuple[Fields, int]:
-    """Return the Newton direction and how often the tangent was applied."""
-    vector = problem.pack(right)
-    applied = 0
-
-    def apply(packed: Real) -> Real:
-        nonlocal applied
-        applied += 1
-        return problem.pack(linear(problem.unpack(packed)))
-
-    operator = LinearOperator((vector.size, vector.size), matvec=apply, dtype=float)
-    solution, _ = gmres(operator, vector, rtol=forcing, restart=_MOST_KRYLOV, maxiter=1)
-    return problem.unpack(solution), applied
+        return loosest
+    return min(loosest, max(_TIGHTEST, _IN_PROPORTION * residuals[-1] / residuals[-2]))
 
 
 def _advance(
-    problem: SlidingContact,
-    circulant: Circulant,
-    fields: Fields,
-    direction: Fields,
-    load: Load,
-    correction: Correction,
-    size: float,
+    problem: SlidingContact, circulant: Circulant, fields: Fields, direction: Direction, load: Load, size: float
 ) -> tuple[Fields, Correction] | None:
     """Return the fields after a step along a direction, as long as brings u - T(u) below ``size``.
 
-    With them, what T makes of them; None where no step does.
+    With them, what T makes of them; None where no step does. Where the contact nodes are not settled, the step at
+    their first guess may be the better one.
     """
+    step, touching = direction.step, direction.touching
+    ahead = _moved(problem, circulant, fields.moved(step), load, touching)
+    if direction.plain is not None:
+        other = _moved(problem, circulant, fields.moved(direction.plain[0]), load, direction.plain[1])
+        if other is not None and (ahead is None or problem.size(other[1].step) < problem.size(ahead[1].step)):
+            ahead, (step, touching) = other, direction.plain
     share = 1.0
-    while share >= _SHORTEST_STEP:
-        moved = fields.moved(direction, share)
-        try:
-            ahead = problem.correct(circulant, moved, load, correction.contact.touching)
-        except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
-            pass
-        else:
-            if problem.size(ahead.step) < (1.0 - _DECREASE * share) * size:
-                return moved, ahead
+    while ahead is None or problem.size(ahead[1].step) >= (1.0 - _DECREASE * share) * size:
         share *= 0.5
-    return None
+        if share < _SHORTEST_STEP:
+            return None
+        ahead = _moved(problem, circulant, fields.moved(step, share), load, touching)
+    return ahead
+
+
+def _moved(
+    problem: SlidingContact, circulant: Circulant, fields: Fields, load: Load, touching: Flags
+) -> tuple[Fields, Correction] | None:
+    """Return fields and what T makes of them, or None where there is no T of them."""
+    try:
+        return fields, problem.correct(circulant, fields, load, touching)
+    except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
+        return None

@@ -19,6 +19,7 @@ from rubfric.mechanics.steady.solution import Friction, SteadySolution, fold_sce
 from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.limits import estimated_fraction, near_crests
+from rubfric.road.road import finest_waves
 from rubfric.scene.scene import Scene
 
 # The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
@@ -110,6 +111,9 @@ class FiniteSolver:
         scene = self.scene
         nodes = max(_FEWEST_NODES, _NODES * scene.numerics.finite_contact_nodes)
         coarse = needed(scene, 1.0, self.finite).coarser(scene, self.finite)
+        if finest_waves(scene.road) > 1:
+            # On a coarser mesh, nodes that are pressed on the crest of a fine wave may slide off either way.
+            return Resolution(needed(scene, 1.0, self.finite).columns, coarse.growth)
         return Resolution(
             fit(scene, max(coarse.columns, nodes / estimated_fraction(scene)), self.finite), coarse.growth
         )

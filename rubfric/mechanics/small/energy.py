@@ -38,7 +38,7 @@ def evaluate_small(solution: SmallSolution) -> Energies:
     heights = np.diff(block.row_positions)
     rest = scene.pressure**2 / (2.0 * material.confined_modulus(scene.plane))
     slope = scene.road.slope(block.column_positions)
-    stride = output_stride(block.columns, scene.numerics.output_columns)
+    stride = output_stride(scene, block.columns, block.rows + 1)
     return Energies(
         stress_power=float(scale * power),
         dissipation=float(scale * lost),

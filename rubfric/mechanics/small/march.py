@@ -18,7 +18,8 @@ import numpy as np
 
 from rubfric.arrays import Complex, Flags, Real
 from rubfric.mechanics.block.block import Block
-from rubfric.mechanics.block.contact import MOST_STEPS, Contact, Convolution, pivot
+from rubfric.mechanics.block.contact import MOST_STEPS, Contact, pivot
+from rubfric.mechanics.block.surface import Convolution
 from rubfric.mechanics.march.step import Outcome
 from rubfric.mechanics.small.modes import surface_modes
 from rubfric.mechanics.small.steady import SmallSolution

@@ -7,12 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Real
+from rubfric.road.road import finest_waves
+from rubfric.scene.scene import Scene
 
 # Friction below this is the difference of forces that cancel, and round-off.
 ROUND_OFF = 1e-11
 # Routes to one number that differ by more than the first are no number; nor, if it is larger than the second, by more
 # than so many times the accuracy asked for.
 MOST_CLOSURE, _LEAST_CLOSURE, _ACCURACIES = 0.25, 0.05, 5.0
+# The output columns of a road are asked for as those of so many of its finest waves; most nodes of the output.
+_WAVES, _MOST_NODES = 4, 100_000
 
 
 def disagreement(routes: tuple[float, ...], resolution: float) -> float:
@@ -80,14 +84,21 @@ def rows_to_nodes(heights: Real, cells: Real) -> Real:
     return total / area
 
 
-def output_stride(columns: int, most: int) -> int:
-    """Return the least stride that leaves at most ``most`` columns, the crest, the trough and the flanks among them.
+def output_stride(scene: Scene, columns: int, rows: int) -> int:
+    """Return the least stride that leaves few enough columns, the crest, the trough and the flanks among them.
+
+    ``numerics.output_columns`` are kept for every four of the finest wave, up to so many that a file takes some three
+    megabytes.
 
     Parameters
     ----------
-    columns : int
-    most : int
-        Columns that may be kept.
+    scene : Scene
+    columns, rows : int
+        Of nodes of the mesh that was solved.
     """
+    waves = finest_waves(scene.road)
+    most = scene.numerics.output_columns
+    if waves > _WAVES:
+        most = max(most, min(most * waves // _WAVES, _MOST_NODES // rows))
     quarter = columns // 4
     return next(stride for stride in range(1, quarter + 1) if quarter % stride == 0 and columns // stride <= most)

@@ -21,8 +21,8 @@ MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
 _LEAST_GROWTH = 1.00001
 # So many spots of contact together are resolved as finely as one alone.
 _SPOTS = 3
-# Fewest columns for the finest of many waves.
-_PER_WAVE = 16
+# Fewest columns for the finest of many waves, in small and in finite strain.
+_PER_WAVE, _PER_WAVE_FINITE = 16, 24
 # A coarse mesh has no fewer columns, and its rows grow no faster.
 _COARSEST_COLUMNS, _COARSEST_GROWTH = 32, 2.0
 
@@ -89,7 +89,7 @@ class Resolution:
         finite : bool
             In finite strain.
         """
-        least = max(_COARSEST_COLUMNS, 0.5 * _fewest_columns(scene))
+        least = max(_COARSEST_COLUMNS, 0.5 * _fewest_columns(scene, finite))
         growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
         return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
 
@@ -109,7 +109,7 @@ def needed(scene: Scene, fraction: float, finite: bool, spots: int = 1) -> Resol
     """
     numerics = scene.numerics
     least = numerics.finite_columns_min if finite else numerics.columns_min
-    columns = max(least, wanted_nodes(scene, finite, spots) / fraction, _fewest_columns(scene))
+    columns = max(least, wanted_nodes(scene, finite, spots) / fraction, _fewest_columns(scene, finite))
     return Resolution(fit(scene, columns, finite), numerics.row_growth)
 
 
@@ -142,11 +142,11 @@ def count_spots(scene: Scene, touching: Flags) -> int:
     return max(1, int(np.count_nonzero(touching & ~np.roll(touching, 1))))
 
 
-def _fewest_columns(scene: Scene) -> float:
+def _fewest_columns(scene: Scene, finite: bool) -> float:
     """Return the fewest columns that a block's shape and the finest of its road's waves ask for."""
     road, waves = scene.road, finest_waves(scene.road)
     by_shape = COLUMNS_PER_HEIGHT / scene.aspect * (road.period / road.wavelength)
-    return max(by_shape, _PER_WAVE * waves if waves > 1 else 0.0)
+    return max(by_shape, (_PER_WAVE_FINITE if finite else _PER_WAVE) * waves if waves > 1 else 0.0)
 
 
 def fit(scene: Scene, columns: float, finite: bool) -> int:

@@ -36,22 +36,24 @@ function opened(numbers, about) {
   return { ...about, x, y, energy, netX, netY, touching, pressure };
 }
 
-/** What is seen of a scale: one and a quarter wavelengths about a crest, up to the highest of its blocks, mm. */
-function frameOf(scale, pictures) {
-  const { wavelength, amplitude } = scale;
-  const highest = Math.max(...pictures.map((about) => about.y[1]), 0);
+/** What is seen of a road, mm: one and a quarter wavelengths about a crest, or a period, up to the highest of its blocks. */
+function frameOf(road, pictures) {
+  const { wavelength, period, crest, lowest, highest } = road;
+  const top = Math.max(...pictures.map((about) => about.y[1]), 0);
   return {
-    left: (0.25 - 0.625) * wavelength,
-    right: (0.25 + 0.625) * wavelength,
-    bottom: -amplitude - 0.11 * wavelength,
-    top: Math.min(highest, amplitude + wavelength) + 0.04 * wavelength,
+    left: period ? 0 : crest - 0.625 * wavelength,
+    right: period ?? crest + 0.625 * wavelength,
+    bottom: lowest - 0.11 * wavelength,
+    top: Math.min(top, highest + wavelength) + 0.04 * wavelength,
   };
 }
 
-function roadHeight(scale, x) { return scale.amplitude * Math.sin((2 * Math.PI * x) / scale.wavelength); }
+function roadHeight({ waves }, x) {
+  return waves.reduce((sum, [amplitude, wavenumber, phase]) => sum + amplitude * Math.sin(wavenumber * x + phase), 0);
+}
 
 /** Points of the road from left to right. */
-function roadLine(scale, frame, count = 240) {
+function roadLine(scale, frame, count = scale.period ? 1500 : 240) {
   const x = Array.from({ length: count + 1 }, (_, place) => frame.left + ((frame.right - frame.left) * place) / count);
   return { x, y: x.map((at) => roadHeight(scale, at)) };
 }
@@ -107,12 +109,28 @@ function paintField(picture, frame, width, colours, [low, high]) {
   return canvas;
 }
 
-/** A small picture without axes: the field, the road, and where they touch. */
-function paintSmall(picture, scale, frame, width, colours, energies) {
+/** A picture without axes: the field, the road, and where they touch; a large one has the net too. */
+function paintSmall(picture, scale, frame, width, colours, energies, net = false) {
   const canvas = paintField(picture, frame, width, colours, energies);
   const pen = canvas.getContext("2d");
   const factor = width / (frame.right - frame.left);
-  const trace = (x, y) => x.forEach((at, place) => pen.lineTo((at - frame.left) * factor, (frame.top - y[place]) * factor));
+  const to = (at, height) => [(at - frame.left) * factor, (frame.top - height) * factor];
+  const trace = (x, y) => x.forEach((at, place) => pen.lineTo(...to(at, y[place])));
+  /** Lines with breaks. */
+  const broken = ({ x, y }) => {
+    pen.beginPath();
+    x.forEach((at, place) => {
+      if (at === null) return;
+      if (!place || x[place - 1] === null) pen.moveTo(...to(at, y[place]));
+      pen.lineTo(...to(at, y[place]));
+    });
+    pen.stroke();
+  };
+  if (net && picture.finite) {
+    pen.strokeStyle = "rgba(255,255,255,0.55)";
+    pen.lineWidth = 1.5;
+    broken(netLines(picture));
+  }
   const road = roadLine(scale, frame);
   pen.beginPath();
   trace([frame.left, ...road.x, frame.right], [frame.bottom, ...road.y, frame.bottom]);
@@ -129,13 +147,7 @@ function paintSmall(picture, scale, frame, width, colours, energies) {
   pen.strokeStyle = TOUCH;
   pen.lineWidth = 8;
   pen.lineCap = "round";
-  const { x, y } = contactLine(picture, scale);
-  pen.beginPath();
-  x.forEach((at, place) => {
-    const to = [(at - frame.left) * factor, (frame.top - y[place]) * factor];
-    if (at !== null) place && x[place - 1] !== null ? pen.lineTo(...to) : (pen.moveTo(...to), pen.lineTo(...to));
-  });
-  pen.stroke();
+  broken(contactLine(picture, scale));
   return canvas;
 }
 
@@ -162,19 +174,6 @@ function netLines(picture) {
   return { x, y };
 }
 
-/** Numbers within a range of decimal logarithms: powers of ten, or also twice and five times those. */
-function decades([low, high]) {
-  const fine = high - low < 2.2 ? [1, 2, 5] : [1];
-  const ticks = [];
-  for (let power = Math.floor(low); power <= Math.ceil(high); power += 1) {
-    for (const factor of fine) {
-      const value = factor * 10 ** power;
-      if (Math.log10(value) >= low - 1e-9 && Math.log10(value) <= high + 1e-9) ticks.push(value);
-    }
-  }
-  return ticks;
-}
-
 /** Traces and layout of the plot of a block. */
 function blockPlot(picture, scale, frame, colours, energies, width) {
   const field = paintField(picture, frame, 1000, colours, energies);
@@ -184,9 +183,9 @@ function blockPlot(picture, scale, frame, colours, energies, width) {
     y: Array.from(picture.y.subarray(row * picture.columns, (row + 1) * picture.columns)),
   });
   const line = (points, look, more = {}) => ({ ...points, mode: "lines", line: { ...look, simplify: false }, hoverinfo: "skip", ...more });
-  const touch = contactLine(picture, scale);
+  const touch = contactLine(picture, scale), thick = scale.period ? 3 : 5;
   const traces = [
-    line(netLines(picture), { color: "rgba(255,255,255,0.55)", width: 1 }, { visible: picture.finite }),
+    line(netLines(picture), { color: "rgba(255,255,255,0.55)", width: 1 }, { visible: picture.finite && !scale.period }),
     line(
       { x: [frame.left, ...road.x, frame.right], y: [frame.bottom, ...road.y, frame.bottom] },
       { color: ROAD_LINE, width: 1 },
@@ -194,7 +193,7 @@ function blockPlot(picture, scale, frame, colours, energies, width) {
     ),
     line(face(0), { color: INK, width: 1.4 }),
     line(face(picture.rows - 1), { color: INK, width: 1.4 }),
-    { ...touch, mode: "lines+markers", line: { color: TOUCH, width: 5, simplify: false }, marker: { color: TOUCH, size: 4 }, hoverinfo: "skip" },
+    { ...touch, mode: "lines+markers", line: { color: TOUCH, width: thick, simplify: false }, marker: { color: TOUCH, size: thick - 1 }, hoverinfo: "skip" },
     hoverNodes(picture, frame),
     {
       x: Array.from(picture.touching), y: Array.from(picture.pressure), yaxis: "y2", mode: "lines", fill: "tozeroy",
@@ -220,16 +219,6 @@ function hoverNodes(picture, frame) {
   return { ...found, mode: "markers", marker: { opacity: 0, size: 8 }, hovertemplate: "strain energy %{text}<extra></extra>" };
 }
 
-/** The scale of energies: its colours, and numbers below them. */
-function energyScale([low, high], stops) {
-  const bar = element("div", { class: "bar", style: `background: linear-gradient(to right, ${stops.join(", ")})` });
-  const ticks = decades([low, high]).map((value) => {
-    const place = (100 * (Math.log10(value) - low)) / (high - low);
-    return element("span", { style: `left: ${place.toFixed(2)}%` }, plain(value));
-  });
-  return [element("div", { class: "quiet" }, "strain-energy density (MPa)"), bar, element("div", { class: "ticks" }, ...ticks)];
-}
-
 /** The block above, to scale, and the contact pressure below it, on the same abscissa. */
 function blockLayout(picture, frame, field, width) {
   const margin = { l: 60, r: 10, t: 8, b: 40 };
@@ -244,7 +233,7 @@ function blockLayout(picture, frame, field, width) {
     xaxis: { ...axis, range: [frame.left, frame.right], anchor: "y2", title: title("distance along the road (mm)"), nticks: 6, fixedrange: !ZOOMS, constrain: "domain" },
     yaxis: {
       ...axis, range: [frame.bottom, frame.top], domain: [(profile + gap) / inner, 1], scaleanchor: "x", constrain: "domain",
-      title: title("height (mm)"), nticks: 6, fixedrange: !ZOOMS,
+      title: title(tall > 95 ? "height (mm)" : "mm"), nticks: tall > 95 ? 6 : 4, fixedrange: !ZOOMS,
     },
     yaxis2: {
       ...axis, domain: [0, profile / inner], range: [0, 1.12 * Math.max(...picture.pressure, 1e-12)],

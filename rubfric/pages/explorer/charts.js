@@ -25,13 +25,14 @@ function pointWords(data, place, pressure, speed) {
   const curve = data.curves[place];
   const friction = curve.friction[pressure][speed], error = curve.error[pressure][speed];
   const lines = [`${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[pressure])}`];
-  if (friction === null) return `${lines[0]}<br>not run`;
+  if (friction === null) return `${lines[0]}<br>${place === "whole" && data.refusals[pressure][speed] ? "refused" : "not run"}`;
   const share = relative(friction, error);
   lines.push(`<b>μ ${measured(friction, error)}</b>${share ? ` (${share})` : ""}`);
   if (place === "total") {
-    for (const { number } of data.scales) {
-      const scene = data.scenes[number][pressure][speed];
-      lines.push(`scale ${number}: ${rounded(scene.friction)}, contact ${percent(scene.contact)}`);
+    lines.push(WAY_NAMES[data.totals.way[pressure][speed]]);
+    for (const way of ["sum", "cascade", "persson"]) {
+      const { friction: of, error: off } = data.totals.ways[way];
+      if (of[pressure][speed] !== null) lines.push(`${WAY_NAMES[way]}: ${measured(of[pressure][speed], off[pressure][speed])}`);
     }
   } else {
     const scene = data.scenes[place][pressure][speed];
@@ -109,12 +110,14 @@ function curvesPlot(data, chosen) {
     marker: { size: 12, color: data.colours.pressures[chosen.pressure], line: { width: 2.5, color: "#1d2129" } },
   };
   const x = data.speeds[chosen.speed];
+  const total = chosen.place === "total", compared = total ? [comparison(data, chosen)] : [];
+  const top = Math.max(highestOf(curve), ...compared.flatMap(({ y }) => y.map((value) => value ?? 0)));
   return {
-    traces: [...bands, ...rings, ...lines, point],
+    traces: [...bands, ...rings, ...compared, ...lines, point, ...(total ? [crosses(data)] : [])],
     layout: {
       ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", hoverdistance: 30, dragmode: false,
       xaxis: speedAxis(data.speeds),
-      yaxis: { ...AXIS, rangemode: "tozero", range: [0, 1.07 * highestOf(curve)], title: titled("friction coefficient μ"), tickformat: ".3~g" },
+      yaxis: { ...AXIS, rangemode: "tozero", range: [0, 1.07 * top], title: titled("friction coefficient μ"), tickformat: ".3~g" },
       shapes: [{ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: "#8b8a86", width: 1, dash: "dot" }, layer: "below" }],
     },
   };
@@ -157,30 +160,32 @@ function mapPlot(data, chosen, width) {
   };
 }
 
-/** What each scale adds to the total, at every speed and the chosen pressure. */
+/** What each scale adds to their sum, and the total, at every speed and the chosen pressure. */
 function barsPlot(data, chosen, width) {
   const places = data.speeds.map((_, place) => place);
+  const { friction: summed, error: off } = data.totals.ways.sum;
   const total = data.curves.total;
   const opacity = places.map((place) => (place === chosen.speed ? 1 : 0.42));
   const bars = data.scales.map(({ number }, order) => {
     const scenes = data.scenes[number][chosen.pressure];
-    const whole = places.map((place) => total.friction[chosen.pressure][place] !== null);
+    const whole = places.map((place) => summed[chosen.pressure][place] !== null);
     return {
       type: "bar", name: `scale ${number}`, x: places, y: scenes.map((scene, place) => (whole[place] ? scene.friction : null)),
       marker: { color: data.colours.scales[order], opacity, line: { width: 0 } },
       customdata: places.map((speed) => [chosen.pressure, speed]),
-      text: scenes.map((scene) => (scene ? `scale ${number}: μ ${measured(scene.friction, scene.error)}` : "")),
+      text: scenes.map((scene) => (scene ? `scale ${number} alone: μ ${measured(scene.friction, scene.error)}` : "")),
       textposition: "none", hovertemplate: "%{text}<extra></extra>",
     };
   });
-  const sums = {
-    x: places, y: total.friction[chosen.pressure], mode: "markers", marker: { opacity: 0 }, showlegend: false, name: "total",
-    error_y: { array: total.error[chosen.pressure].map((value) => value ?? 0), color: "#1d2129", thickness: 1.5, width: 5 },
+  const points = (name, values, errors, symbol, ink) => ({
+    x: places, y: values[chosen.pressure], mode: "markers", name, marker: { symbol, size: 10, color: ink, line: { width: 1.5, color: symbol === "diamond" ? "#ffffff" : ink } },
+    error_y: { array: errors[chosen.pressure].map((value) => value ?? 0), color: ink, thickness: 1.5, width: 5 },
     customdata: places.map((speed) => [chosen.pressure, speed]),
     text: places.map((speed) => pointWords(data, "total", chosen.pressure, speed)), hovertemplate: "%{text}<extra></extra>",
-  };
+  });
+  const sums = points("sum", summed, off, "line-ew-open", "#5c6370");
   return {
-    traces: [...bars, sums],
+    traces: [...bars, sums, points("total", total.friction, total.error, "diamond", "#1d2129")],
     layout: {
       ...LOOK, barmode: "stack", bargap: 0.28, width, height: 270, margin: { l: 52, r: 8, t: 26, b: 48 }, hovermode: "closest", dragmode: false,
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", traceorder: "normal", font: { size: 12 }, itemclick: false, itemdoubleclick: false },

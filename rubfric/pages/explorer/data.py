@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
-from rubfric.pages.explorer.pictures import Store, picture
-from rubfric.results.scales import total_error, total_friction
+from rubfric.pages.explorer.pictures import WIDER, Store, is_whole, picture
+from rubfric.pages.explorer.totals import WHOLE, about, by_way, on_axes, reasons
 from rubfric.results.selection import check_variables, find_peak, position
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
@@ -40,13 +41,22 @@ _MOST, _FEWEST, _ROOM = (28, 128), (12, 32), 400
 _LOWEST, _LENGTH = 10.0, 0.5
 
 
-def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, road: str) -> dict[str, Any]:
+def payload(
+    campaign: xr.Dataset,
+    table: pd.DataFrame,
+    results: Iterable[xr.Dataset],
+    aspect: float,
+    road: str,
+    whole: xr.Dataset | None = None,
+) -> dict[str, Any]:
     """Return all that the page shows.
 
     Parameters
     ----------
     campaign : xarray.Dataset
         As gathered by ``results.campaign.collect``; scenes that were not run are NaN.
+    table : pandas.DataFrame
+        The friction of the whole road, as from ``results.totals.total_table``; of one scale it is not shown.
     results : iterable of xarray.Dataset
         As built by ``results.dataset.build``, at this height-to-width ratio; a scene without one has numbers but no
         picture.
@@ -54,6 +64,8 @@ def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, 
         Height over width of the blocks.
     road : str
         Name of the road.
+    whole : xarray.Dataset, optional
+        The collection of the scenes of the whole road, results of which may be among ``results``.
 
     Returns
     -------
@@ -70,19 +82,31 @@ def payload(campaign: xr.Dataset, results: Iterable[xr.Dataset], aspect: float, 
     """
     grid = _grid(campaign, aspect)
     axes = {name: grid[name].values for name in ("scale", "pressure", "velocity")}
-    scenes = _scenes(grid)
-    packed, energies = _pictures(results, axes, scenes, aspect)
+    curves, scenes, found = _curves(grid), _scenes(grid), {}
+    if len(curves) > 1:
+        totals = by_way(table, axes)
+        curves["total"] = _curve(totals.pop("friction"), totals.pop("error"))
+        found["totals"] = _all_plain(totals)
+    if whole is not None:
+        placed = on_axes(whole, axes)
+        curves[WHOLE] = _curve(placed[_FRICTION].values, placed[_ERROR].values)
+        scenes[WHOLE] = _cells(placed)
+        found["refusals"] = reasons(whole, axes)
+    packed, energies, pictured = _pictures(results, axes, scenes, aspect)
+    if whole is not None:
+        found[WHOLE] = about(whole, pictured)
     return {
         "about": {name: str(campaign.attrs.get(name, "unknown")) for name in _ABOUT}
         | {"road": road, "aspect": aspect, "accuracy": _accuracy(campaign)},
         "speeds": _plain(axes["velocity"]),
         "pressures": _plain(axes["pressure"]),
         "scales": [_scale(grid.sel(scale=number)) for number in axes["scale"]],
-        "curves": _curves(grid),
+        "curves": curves,
         "scenes": scenes,
         "colours": palette(axes["pressure"].size, axes["scale"].size),
         "energies": energies,
         "pictures": packed,
+        **found,
     }
 
 
@@ -104,75 +128,76 @@ def _accuracy(campaign: xr.Dataset) -> float | None:
 
 
 def _scale(grid: xr.Dataset) -> dict[str, Any]:
-    wavenumber = float(grid["wavenumber"])
+    amplitude, wavenumber = float(grid["amplitude"]), float(grid["wavenumber"])
     return {
         "number": int(grid["scale"]),
-        "amplitude": float(grid["amplitude"]),
         "wavelength": 2.0 * math.pi / wavenumber,
+        "waves": [[amplitude, wavenumber, 0.0]],
+        "lowest": -amplitude,
+        "highest": amplitude,
+        "crest": 0.5 * math.pi / wavenumber,
     }
 
 
 def _curves(grid: xr.Dataset) -> dict[str, Any]:
-    """Return friction, its error and peaks of every scale, and of all scales together where there are several."""
-    found = {
-        str(number): _curve(grid[_FRICTION].sel(scale=number), grid[_ERROR].sel(scale=number))
+    """Return friction, its error and peaks of every scale."""
+    return {
+        str(number): _curve(*(grid[name].sel(scale=number).values for name in (_FRICTION, _ERROR)))
         for number in grid["scale"].values
     }
-    if len(found) > 1:
-        found["total"] = _curve(total_friction(grid[_FRICTION]), total_error(grid[_ERROR]))
-    return found
 
 
-def _curve(friction: xr.DataArray, error: xr.DataArray) -> dict[str, Any]:
-    pairs = zip(friction.values, error.values, strict=True)
-    peaks = [find_peak(*pair)._asdict() for pair in pairs]
-    return {"friction": _plain(friction.values), "error": _plain(error.values), "peaks": peaks}
+def _curve(friction: np.ndarray, error: np.ndarray) -> dict[str, Any]:
+    peaks = [find_peak(*pair)._asdict() for pair in zip(friction, error, strict=True)]
+    return {"friction": _plain(friction), "error": _plain(error), "peaks": peaks}
 
 
 def _scenes(grid: xr.Dataset) -> dict[str, list[list[dict[str, Any] | None]]]:
     """Return the numbers of every scene by scale, pressure and speed; None where it was not run."""
+    return {str(number): _cells(grid.sel(scale=number)) for number in grid["scale"].values}
+
+
+def _cells(field: xr.Dataset) -> list[list[dict[str, Any] | None]]:
     names = list(_SCALARS.values())
-    fields = np.stack([grid[name].values for name in _SCALARS], axis=-1)
-    return {
-        str(number): [
-            [dict(zip(names, _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
-            for row in field
-        ]
-        for number, field in zip(grid["scale"].values, fields, strict=True)
-    }
+    return [
+        [dict(zip(names, _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
+        for row in np.stack([field[name].values for name in _SCALARS], axis=-1)
+    ]
 
 
 def _pictures(
     results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float
-) -> tuple[str, list[float]]:
+) -> tuple[str, list[float], xr.Dataset | None]:
     """Add picture, reason and warnings of every result to its scene; return the packed numbers and their energies.
 
-    Energies are decimal logarithms of MPa, the ends of the scale that all pictures share.
+    Energies are decimal logarithms of MPa, the ends of the scale that all pictures share. The last is any result of the
+    whole road.
     """
-    store, low, high = Store(), [], []
-    count = sum(scene is not None for rows in scenes.values() for row in rows for scene in row)
+    store, low, high, whole = Store(), [], [], None
+    weights = {name: WIDER if name == WHOLE else 1 for name in scenes}
+    count = sum(weights[name] * (scene is not None) for name, rows in scenes.items() for row in rows for scene in row)
     share = min(1.0, math.sqrt(_ROOM / count))
     most = [max(fewest, int(share * size)) for size, fewest in zip(_MOST, _FEWEST, strict=True)]
     for result in results:
         scene = _found(result, axes, scenes, aspect)
         made = picture(result, *most)
+        whole = result if is_whole(result) else whole
         low.append(made.about["floor"])
         high.append(made.about["energy"][1])
         scene["picture"] = store.add(made)
         scene["reason"] = result.attrs["kinematics_reason"]
         scene["warnings"] = [sentence for sentence in result.attrs["warnings"].split("\n") if sentence]
     top = max(high, default=0.0)
-    return store.packed(), [min(float(np.percentile(low, _LOWEST)) if low else -3.0, top - _LENGTH), top]
+    return store.packed(), [min(float(np.percentile(low, _LOWEST)) if low else -3.0, top - _LENGTH), top], whole
 
 
 def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float) -> dict[str, Any]:
     """Return the scene of a result."""
-    wanted = {"scale": "scale", "pressure": "pressure", "velocity": "velocity"}
-    places = [np.flatnonzero(axes[axis] == result.attrs[name]) for axis, name in wanted.items()]
-    scene = None
-    if all(place.size for place in places) and result.attrs["aspect"] == aspect:
-        scale, pressure, speed = (int(place[0]) for place in places)
-        scene = scenes[str(axes["scale"][scale])][pressure][speed]
+    places = [np.flatnonzero(axes[axis] == result.attrs[axis]) for axis in ("pressure", "velocity")]
+    name, scene = WHOLE if is_whole(result) else str(result.attrs["scale"]), None
+    if all(place.size for place in places) and result.attrs["aspect"] == aspect and name in scenes:
+        pressure, speed = (int(place[0]) for place in places)
+        scene = scenes[name][pressure][speed]
     if scene is None:
         raise InvalidInput(f"the scene {result.attrs['scene']} is not among those of the page")
     return scene
@@ -183,3 +208,10 @@ def _plain(values: np.ndarray) -> Any:
     if values.ndim > 1:
         return [_plain(row) for row in values]
     return [float(f"{value:.8g}") if math.isfinite(value) else None for value in values.tolist()]
+
+
+def _all_plain(nested: Any) -> Any:
+    """Return nested dictionaries with every array as lists."""
+    if isinstance(nested, dict):
+        return {name: _all_plain(one) for name, one in nested.items()}
+    return _plain(nested) if isinstance(nested, np.ndarray) else nested

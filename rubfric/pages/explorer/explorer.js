@@ -3,14 +3,14 @@
 
 const data = JSON.parse(byId("payload").textContent);
 const severalScales = "total" in data.curves;
-const places = [...(severalScales ? ["total"] : []), ...data.scales.map(({ number }) => String(number))];
+const places = [...(severalScales ? ["total"] : []), ...(data.whole ? ["whole"] : []), ...data.scales.map(({ number }) => String(number))];
 const colours = shades(data.colours.energy);
 let numbers = null; // of the pictures, once they are unpacked
 let drawn = Promise.resolve();
 
 // ---- What is chosen, and the address that says so ----
 
-const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0 };
+const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, spot: null };
 
 /** The scene of highest friction at a place: what a visitor sees first. */
 function highestScene(place) {
@@ -75,7 +75,7 @@ function swatch(pressure) {
 function makeControls() {
   for (const place of places) {
     const scale = data.scales.find(({ number }) => String(number) === place);
-    const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength, 2)}${THIN}mm`)] : ["All scales"];
+    const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength, 2)}${THIN}mm`)] : [{ total: "Total", whole: "Whole road" }[place]];
     byId("places").append(option("place", place, ...label));
   }
   byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
@@ -108,7 +108,9 @@ function showControls() {
 
 // ---- Words and numbers ----
 
-function placeName(place) { return place === "total" ? "All scales" : `Scale ${place}`; }
+function placeName(place) { return { total: "Total", whole: "Whole road" }[place] ?? `Scale ${place}`; }
+
+function roadOf(place) { return place === "whole" ? data.whole : data.scales.find(({ number }) => String(number) === place); }
 
 function sceneName() { return `${speedOf(data.speeds[chosen.speed])}, ${pressureOf(data.pressures[chosen.pressure])}`; }
 
@@ -118,7 +120,7 @@ function showAbout() {
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
   byId("about").textContent = `Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
-  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error; of all scales, the sum of theirs.`;
+  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. It covers neither the data of the rubber nor the choice of its law.`;
 }
 
 function showWords() {
@@ -128,10 +130,12 @@ function showWords() {
   const share = relative(friction, error);
   byId("chart-title").textContent = `${placeName(place)}: friction ` + (chosen.view === "map" ? "over speed and pressure" : "against speed");
   byId("peak").textContent = peakWords(curve, pressure, data.pressures, data.speeds);
-  byId("marks").textContent = marksWords(curve, chosen.view);
+  byId("marks").textContent = marksWords(curve, chosen, data);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
-  byId("numbers-title").textContent = place === "total" ? "What the scales add up to" : "The numbers of this scene";
-  byId("headline").replaceChildren(friction === null ? "Not run" : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
+  byId("numbers-title").textContent = place === "total" ? "The scales, and four ways to the total" : "The numbers of this scene";
+  const none = place === "whole" && data.refusals[pressure][speed] ? "Refused" : "Not run";
+  byId("covers").textContent = place === "total" ? coversTotal(data, chosen) : coversScene(data, chosen, data.scenes[place][pressure][speed]);
+  byId("headline").replaceChildren(friction === null ? none : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
   byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}`;
   const keys = "Left and right arrows choose the speed, up and down arrows the pressure.";
   byId("chart").setAttribute("aria-label", `${byId("chart-title").textContent}. ${keys}`);
@@ -141,7 +145,7 @@ function showWords() {
 
 const framed = new Map();
 
-/** The frame of a scale: the same for all its scenes, so that they can be compared. */
+/** The frame of a road: the same for all its scenes, so that they can be compared. */
 function frame(scale) {
   if (!framed.has(scale.number)) {
     const about = data.scenes[scale.number].flat().map((scene) => scene?.picture).filter(Boolean);
@@ -153,12 +157,13 @@ function frame(scale) {
 function pictureOf(scene) { return numbers && scene?.picture ? opened(numbers, scene.picture) : null; }
 
 function showScene(place) {
-  const scale = data.scales.find(({ number }) => String(number) === place);
+  const scale = roadOf(place);
   const scene = data.scenes[place][chosen.pressure][chosen.speed];
   const picture = pictureOf(scene);
   byId("small-pictures").replaceChildren();
   byId("energies").replaceChildren(...(picture ? energyScale(data.energies, data.colours.energy) : []));
   byId("picture").hidden = !picture;
+  byId("spot").hidden = !(picture && scale.period);
   byId("caption").replaceChildren();
   byId("numbers").replaceChildren();
   byId("warnings").replaceChildren(...warningsOf([[place, scene]]));
@@ -167,34 +172,44 @@ function showScene(place) {
   const how = picture.finite
     ? "Displacements are to scale; the white lines made squares before deformation."
     : `Small strain: only vertical displacements are shown, to scale, without the mean compression of ${percent(scene.compression)}.`;
-  const hint = ZOOMS ? " Drag to zoom, double click to see all again." : "";
-  byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below. ${how}`,
+  const hint = (ZOOMS ? " Drag to zoom, double click to see all again." : "") + (scale.period ? " Click on the block to magnify another spot." : "");
+  const seen = scale.period ? ` One period of the road, and the framed spot, ${rounded(0.75 * scale.wavelength, 2)}${THIN}mm wide, magnified.` : "";
+  const drawn = place === "whole" && scale.draws ? " The picture is of the first of the random roads." : "";
+  byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below.${seen} ${how}${drawn}`,
     element("span", { class: "fine" }, hint));
   byId("picture").setAttribute("aria-label", `The deformed block on ${placeName(place).toLowerCase()} at ${sceneName()}, in contact on ${percent(scene.contact)} of its area.`);
   const plot = blockPlot(picture, scale, frame(scale), colours, data.energies, byId("picture").clientWidth);
+  if (scale.period) {
+    const spot = spotFrame(scale, chosen.spot);
+    plot.layout.shapes = [spotShape(spot, frame(scale))];
+    byId("spot").replaceChildren(paintSmall(picture, scale, spot, 1100, colours, data.energies, true));
+  }
   return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
 }
 
-function smallPicture({ number }, order) {
-  const scale = data.scales[order];
-  const scene = data.scenes[number][chosen.pressure][chosen.speed];
-  const picture = pictureOf(scene);
-  const button = element("button", { type: "button", class: "small", title: `Show scale ${number}` });
-  if (picture) button.append(paintSmall(picture, scale, frame(scale), 320, colours, data.energies));
-  button.append(`scale ${number}`);
+function smallPicture(road) {
+  const { number, period } = road, name = period ? "whole road" : `scale ${number}`;
+  const picture = pictureOf(data.scenes[number][chosen.pressure][chosen.speed]);
+  const button = element("button", { type: "button", class: period ? "small wide" : "small", title: `Show ${period ? "the " : ""}${name}` });
+  if (picture) button.append(paintSmall(picture, road, frame(road), period ? 1400 : 320, colours, data.energies));
+  button.append(name);
   button.addEventListener("click", () => { choose({ place: String(number) }); byId("places").querySelector(`[value="${number}"]`).focus(); });
   return button;
 }
 
 function showTotal() {
-  const scenes = data.scales.map(({ number }) => [number, data.scenes[number][chosen.pressure][chosen.speed]]);
-  byId("small-pictures").replaceChildren(...data.scales.map(smallPicture));
+  const pictured = data.whole && pictureOf(data.scenes.whole[chosen.pressure][chosen.speed]);
+  const shown = [...data.scales.map(({ number }) => String(number)), ...(data.whole ? ["whole"] : [])];
+  const scenes = shown.map((place) => [place, data.scenes[place][chosen.pressure][chosen.speed]]);
+  byId("small-pictures").replaceChildren(...[...(pictured ? [data.whole] : []), ...data.scales].map(smallPicture));
   byId("energies").replaceChildren();
-  byId("caption").textContent = "Bars: what each scale adds at this pressure, with the error of the sum. Pictures: the block on each scale, each in its own size, brighter where more energy is stored.";
+  byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
+    "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored.";
+  byId("spot").hidden = true;
   byId("numbers").replaceChildren(totalNumbers(data, chosen));
   byId("warnings").replaceChildren(...warningsOf(scenes));
   byId("picture").hidden = false;
-  byId("picture").setAttribute("aria-label", `Friction of each scale against speed at ${pressureOf(data.pressures[chosen.pressure])}, stacked; the table below has the numbers.`);
+  byId("picture").setAttribute("aria-label", `Friction of each scale against speed at ${pressureOf(data.pressures[chosen.pressure])}, stacked, and the total; the table has the numbers.`);
   const plot = barsPlot(data, chosen, byId("picture").clientWidth);
   return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
 }
@@ -220,7 +235,8 @@ function listen(plot) {
   plot.listens = true;
   plot.on("plotly_click", ({ points }) => {
     const place = points[0]?.customdata;
-    if (Array.isArray(place)) choose({ pressure: place[0], speed: place[1] });
+    if (chosen.place === "whole" && plot.id === "picture") choose({ spot: points[0].x });
+    else if (Array.isArray(place)) choose({ pressure: place[0], speed: place[1] });
   });
 }
 

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
-from rubfric.figures.deformation import VARIABLES, DeformedBlock, deform, is_finite, wavelength
+from rubfric.figures.deformation import VARIABLES, DeformedBlock, deform, is_finite, profile, wavelength
 
 Array = NDArray[np.float64]
 
@@ -20,8 +20,10 @@ Array = NDArray[np.float64]
 NEEDED = (*VARIABLES, "surface_position", "contact_pressure")
 # Numbers are stored in steps of the range that they span.
 STEPS = 65535
-# Width of the picture in wavelengths, and the points of the contact that it keeps.
-_WIDTH, _TOUCHING = 1.25, 240
+# Width of the picture in wavelengths, and the points of the contact that it keeps of each.
+_WIDTH, _TOUCHING = 1.25, 190
+# The whole road keeps this many times as many columns as a scale, and lines of the net to a coarsest wavelength.
+WIDER, _LINES = 6, 8
 # Density is drawn on a logarithmic scale; below this share of a scene's largest there is nothing to see.
 _NEGLIGIBLE = 1e-7
 # Share of the nodes, in per cent, with the lowest density, which would take most of that scale.
@@ -70,14 +72,14 @@ class Store:
 
 
 def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
-    """Return the picture of a scene: one and a quarter wavelengths about a crest of the road.
+    """Return the picture of a scene: one and a quarter wavelengths about a crest, or one period of the whole road.
 
     Parameters
     ----------
     result : xarray.Dataset
         As built by ``rubfric.results.dataset.build``.
     rows, columns : int
-        Most nodes over the height and along a wavelength.
+        Most nodes over the height and along a wavelength; ``WIDER`` times as many along a period of the whole road.
 
     Raises
     ------
@@ -87,14 +89,16 @@ def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
     lacking = [name for name in NEEDED if name not in result]
     if lacking:
         raise InvalidInput(f"the result {result.attrs.get('scene', 'without a name')} lacks {', '.join(lacking)}")
+    whole = is_whole(result)
     left, right = stretch(result)
-    block = deform(result, left, right)
-    across = _evenly(block.x.shape[1], round(_WIDTH * columns))
+    block = deform(result, left, right, profile(result).wavelength / _LINES if whole else None)
+    longer = WIDER if whole else _WIDTH
+    across = _evenly(block.x.shape[1], round(longer * columns))
     up = _evenly(block.x.shape[0], rows)
     x, y, density = (grid[np.ix_(up, across)] for grid in (block.x, block.y, block.density))
     energy = np.log10(np.maximum(density, max(_NEGLIGIBLE * float(density.max()), np.finfo(np.float64).tiny)))
     net = [line[:, _evenly(line.shape[1], max(rows, columns))] for line in _inside(block, left, right)]
-    touching, pressure = _contact(result, left, right)
+    touching, pressure = _contact(result, left, right, round(longer * _TOUCHING))
     sheets = [np.concatenate([grid.ravel(), *(line[place] for line in net)]) for place, grid in enumerate((x, y))]
     spans = {"x": _span(np.append(sheets[0], touching)), "y": _span(sheets[1])}
     spans |= {"energy": _span(energy), "pressure": (0.0, float(pressure.max(initial=0.0)))}
@@ -111,9 +115,16 @@ def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
     return Picture(about | {name: list(span) for name, span in spans.items()}, values)
 
 
+def is_whole(result: xr.Dataset) -> bool:
+    """Return whether a scene slides over all scales at once."""
+    return int(result.attrs["scale"]) == 0
+
+
 def stretch(result: xr.Dataset) -> tuple[float, float]:
     """Return the ends of the picture, mm."""
     width = wavelength(result)
+    if is_whole(result):
+        return 0.0, width
     return (0.25 - 0.5 * _WIDTH) * width, (0.25 + 0.5 * _WIDTH) * width
 
 
@@ -127,7 +138,7 @@ def _inside(block: DeformedBlock, left: float, right: float) -> list[Array]:
     return [line for line in block.net if line[0].max() > left and line[0].min() < right]
 
 
-def _contact(result: xr.Dataset, left: float, right: float) -> tuple[Array, Array]:
+def _contact(result: xr.Dataset, left: float, right: float, most: int) -> tuple[Array, Array]:
     """Return where the surface touches the road, each stretch between points without pressure, and the pressure."""
     width = wavelength(result)
     order = np.argsort(result["surface_position"].values)
@@ -136,7 +147,7 @@ def _contact(result: xr.Dataset, left: float, right: float) -> tuple[Array, Arra
     x, p = (place + width * copies[:, None]).ravel(), np.tile(pressure, copies.size)
     beside = np.concatenate(([0.0], p[:-1])) + np.concatenate((p[1:], [0.0]))
     kept = np.flatnonzero((x >= left) & (x <= right) & (p + beside > 0.0))
-    thinned = kept[_evenly(kept.size, _TOUCHING)] if kept.size else kept
+    thinned = kept[_evenly(kept.size, most)] if kept.size else kept
     if kept.size:
         ends = kept[(p[kept] == 0.0) | (p[kept] == p[kept].max())]
         thinned = np.union1d(thinned, ends)

@@ -23,21 +23,31 @@ function sceneNumbers(scene) {
   );
 }
 
-/** What each scale adds at the chosen speed and pressure, and the sum. */
+/** What each scale adds at the chosen speed and pressure, the total by every way, and the one that counts. */
 function totalNumbers(data, chosen) {
   const { pressure, speed } = chosen;
-  const total = data.curves.total.friction[pressure][speed];
-  const cells = (kind, values) => values.map((value) => element(kind, {}, value));
+  const { ways, way } = data.totals;
+  const sum = ways.sum.friction[pressure][speed];
+  const row = (name, scene, friction, error, share = "") => {
+    const about = scene ? [percent(scene.contact), rounded(scene.largest)] : ["", ""];
+    return element("tr", {}, name, ...[measured(friction, error), share, ...about].map((value) => element("td", {}, value)));
+  };
   const rows = data.scales.map(({ number }, order) => {
     const scene = data.scenes[number][pressure][speed];
     const name = element("td", {}, element("span", { class: "swatch", style: `background:${data.colours.scales[order]}` }), `scale ${number}`);
-    if (!scene) return element("tr", {}, name, ...cells("td", ["not run", "", "", ""]));
-    const share = total ? percent(scene.friction / total) : "";
-    return element("tr", {}, name, ...cells("td", [measured(scene.friction, scene.error), share, percent(scene.contact), rounded(scene.largest)]));
+    return row(name, scene, scene?.friction ?? null, scene?.error ?? null, scene && sum ? percent(scene.friction / sum) : "");
   });
-  const sum = measured(total, data.curves.total.error[pressure][speed]);
-  rows.push(element("tr", {}, ...cells("td", ["total", sum, "", "", ""])));
-  const head = element("tr", {}, ...["", "μ", "share", "contact", "largest MPa"].map((name) => element("th", { scope: "col" }, name)));
+  for (const name of ["sum", "cascade", "persson", "direct"]) {
+    const [friction, error] = [ways[name].friction[pressure][speed], ways[name].error[pressure][speed]];
+    const refused = name === "direct" && friction === null && data.refusals?.[pressure][speed];
+    const cells = row(element("td", {}, WAY_NAMES[name]), name === "direct" ? data.scenes.whole?.[pressure][speed] : null, friction, error);
+    if (refused) cells.children[1].textContent = "refused";
+    rows.push(cells);
+  }
+  const { friction, error } = data.curves.total;
+  const taken = way[pressure][speed];
+  rows.push(row(element("td", {}, taken ? `total: ${WAY_NAMES[taken]}` : "total"), null, friction[pressure][speed], error[pressure][speed]));
+  const head = element("tr", {}, ...["", "μ", "share of sum", "contact", "largest MPa"].map((name) => element("th", { scope: "col" }, name)));
   const table = element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows));
   return element("div", { class: "scroll" }, table);
 }
@@ -45,9 +55,10 @@ function totalNumbers(data, chosen) {
 /** The warnings of some scenes, each once, with the scales that it is about. */
 function warningsOf(scenes) {
   const said = new Map();
+  const whose = (place) => (place === "whole" ? "Whole road" : `Scale ${place}`);
   for (const [number, scene] of scenes) {
     for (const words of scene?.warnings ?? []) said.set(words, [...(said.get(words) ?? []), number]);
   }
-  const items = [...said].map(([words, scales]) => element("li", {}, scenes.length > 1 ? `Scale ${scales.join(", ")}: ${words}` : words));
+  const items = [...said].map(([words, scales]) => element("li", {}, scenes.length > 1 ? `${scales.map(whose).join(", ")}: ${words}` : words));
   return items.length ? [element("ul", { "aria-label": "Warnings" }, ...items)] : [];
 }

@@ -78,7 +78,7 @@ function peakWords(curve, pressure, pressures, speeds) {
   if (kind === "none") return `${here} nothing was run.`;
   const highest = measured(curve.friction[pressure][at], curve.error[pressure][at]);
   const there = speedOf(speeds[at]);
-  const gaps = missing ? ` ${missing} of ${speeds.length} speeds were not run.` : "";
+  const gaps = missing ? ` ${missing} of ${speeds.length} speeds have no result.` : "";
   const said = {
     peak: () => {
       const [low, high] = between.map((place) => plain(speeds[place]));
@@ -94,14 +94,16 @@ function peakWords(curve, pressure, pressures, speeds) {
 }
 
 /** What the marks of a chart mean, and how large the errors are. */
-function marksWords(curve, view) {
-  const shares = curve.friction.flatMap((row, pressure) => row.map((friction, speed) => {
-    const error = curve.error[pressure][speed];
+function marksWords(curve, { view, place, pressure }, data) {
+  const shares = curve.friction.flatMap((row, at) => row.map((friction, speed) => {
+    const error = curve.error[at][speed];
     return friction && error !== null ? Math.abs(error / friction) : 0;
   }));
   const largest = Math.max(...shares);
   const rings = curve.peaks.some(({ kind }) => kind === "peak");
   const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
   const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
-  return [rings ? mark : "", error].filter(Boolean).join(" ");
+  const sum = place === "total" && view === "curves" ? `Dashed: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
+  const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was refused there." : "";
+  return [rings ? mark : "", error, sum, crossed].filter(Boolean).join(" ");
 }

@@ -15,10 +15,11 @@ from rubfric.mechanics.steady.refinement import steps_to
 from rubfric.mechanics.steady.resolution import Resolution, count_spots, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
 from rubfric.mechanics.theory.kinematics import decide
+from rubfric.road.road import finest_waves
 from rubfric.scene.numerics import Numerics, fineness
 from rubfric.scene.scene import Scene
 
-# Fineness of the three meshes (``scene.numerics``).
+# Fineness of the three meshes (``scene.numerics``); on roads of many waves, where contact has more nodes, that of both.
 _FINENESS = {"small": (2.0, 3.0, 4.5), "finite": (1.4, 2.0, 2.8)}
 # Order of the extrapolation of three meshes that converge monotonically: the lowest that is observed.
 _ORDER = 2.0
@@ -60,7 +61,8 @@ def converge(scene: Scene) -> Converged:
     solver = SmallSolver(scene, decide(scene)) if kinematics == "small" else FiniteSolver(scene, decide(scene))
     solution = steps_to(scene, solver, [])
     found: list[Friction] = []
-    for finer in _FINENESS[kinematics]:
+    many = finest_waves(scene.road) > 1
+    for finer in _FINENESS["finite" if many else kinematics]:
         spots = count_spots(scene, solution.contact.touching)
         target = needed(scene, solution.contact_fraction, solver.finite, spots)
         growth = 1.0 + (target.growth - 1.0) / finer

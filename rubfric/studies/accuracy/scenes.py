@@ -3,7 +3,8 @@
 The fixed set takes each scale of the paper's road slow, near its peak and fast, lightly and heavily loaded, in both
 planes, with flat and tall blocks among them. The drawn ones are spread evenly over the logarithms of their parameters;
 outside the paper's grid, speeds, pressures, height-to-width ratios, slopes and wavelengths go ten to a hundred times
-further, and half of the rubbers are random.
+further, and half of the rubbers are random. Whole roads are drawn too: the paper's with random phases, and others of
+up to 64 waves.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ import numpy as np
 
 from rubfric.config.campaign import Campaign
 from rubfric.road.sine import SineScale
+from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import PLANES, Material
-from rubfric.scene.scene import Scene
+from rubfric.scene.scene import ALL, Scene
 
 # Scale, speed in mm/s, pressure in MPa, height over width, plane.
 _FIXED = (
@@ -49,6 +51,10 @@ _RANGES = {
 }
 _SLOPES, _WAVELENGTHS, _BRANCHES = (0.03, 1.0), (2e-3, 5.0), 8
 SETS = tuple(_RANGES)
+# Whole roads other than the paper's: waves, the most often that the finest of them fits into the period, and the
+# steepest slope.
+WHOLE = "whole"
+_WAVES, _FINEST, _STEEPEST = (2.0, 64.0), 128, (0.1, 3.0)
 
 
 def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
@@ -89,6 +95,50 @@ def _drawn(campaign: Campaign, rng: np.random.Generator, kind: str, number: int)
     road = SineScale(_between(rng, *_SLOPES) / wavenumber, wavenumber)
     material = campaign.material if rng.random() < 0.5 else _rubber(rng)
     return replace(scene, scale=1, road=road, material=material)
+
+
+def whole_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
+    """Return drawn scenes on whole roads by name, ``whole_0`` to ``whole_<count - 1>``.
+
+    Every other one is on the paper's road, inside its grid, with random phases; the others are outside, on roads of
+    two to 64 random waves. A third of them ask for ``auto``, the others for small strain.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Its road and rubber.
+    count : int
+    seed : int
+        Of the random numbers.
+    """
+    rng = np.random.default_rng(seed)
+    return {f"{WHOLE}_{number}": _whole(campaign, rng, number) for number in range(count)}
+
+
+def _whole(campaign: Campaign, rng: np.random.Generator, number: int) -> Scene:
+    kind = SETS[number % len(SETS)]
+    velocity, pressure, aspect = (_between(rng, *limits) for limits in _RANGES[kind].values())
+    plane = PLANES[int(rng.integers(len(PLANES)))]
+    scene = campaign.scene(ALL, velocity, pressure, aspect, plane, "auto" if number % 3 == 2 else "small")
+    if kind == "inside":
+        road = campaign.whole_road
+        return replace(scene, road=replace(road, phases=_phases(rng, len(road.amplitudes))))
+    return replace(scene, road=_waves(rng))
+
+
+def _waves(rng: np.random.Generator) -> WaveRoad:
+    """Return a random road, whose heights fall with the wavenumber about as those of rough surfaces do."""
+    count = round(_between(rng, *_WAVES))
+    numbers = np.sort(rng.choice(np.arange(1, _FINEST + 1), count, replace=False))
+    wavenumbers = numbers / numbers[0] * (2.0 * math.pi / _between(rng, *_WAVELENGTHS))
+    amplitudes = wavenumbers ** -rng.uniform(0.5, 1.5) * np.exp(rng.uniform(-1.0, 1.0, count))
+    road = WaveRoad(tuple(amplitudes), tuple(wavenumbers), _phases(rng, count))
+    factor = _between(rng, *_STEEPEST) / road.steepest_slope
+    return replace(road, amplitudes=tuple(factor * amplitudes))
+
+
+def _phases(rng: np.random.Generator, count: int) -> tuple[float, ...]:
+    return tuple(rng.uniform(0.0, 2.0 * math.pi, count))
 
 
 def _rubber(rng: np.random.Generator) -> Material:

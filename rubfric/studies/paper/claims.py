@@ -75,7 +75,10 @@ CLAIMS: dict[str, Claim] = {
     "C7": Claim(
         "Fig. 7",
         "So does the total over the scales, at 5 MPa.",
-        {"peaks over speed": "largest total between the ends over the larger of the ends, less 1"},
+        {
+            "the whole road peaks": "largest total between the ends over the larger of the ends, less 1",
+            "the sum peaks": "largest sum over the scales between the ends over the larger of the ends, less 1",
+        },
     ),
     "C8": Claim(
         "Fig. 9",
@@ -84,6 +87,11 @@ CLAIMS: dict[str, Claim] = {
             "rises to a peak": "largest friction over that at the lowest speed, less 1",
             "falls past the peak": "largest friction over that at the highest speed, less 1",
         },
+    ),
+    "C9": Claim(
+        "Section 2.2",
+        "The friction of the whole road is the sum of the coefficients of its scales.",
+        {"the sum is the total": "difference of the sum over the scales from all scales at once, over the latter"},
     ),
 }
 

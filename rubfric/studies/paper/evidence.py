@@ -11,7 +11,6 @@ import pandas as pd
 import xarray as xr
 
 from rubfric.arrays import Real
-from rubfric.results.scales import total_error, total_friction
 from rubfric.results.selection import find_peak
 from rubfric.studies.paper.claims import Evidence
 from rubfric.studies.paper.observation import DEPTH
@@ -29,7 +28,7 @@ Where: TypeAlias = tuple[int | None, float | None, float | None]
 
 
 def gather(observed: xr.Dataset, aspect: float, studied: Iterable[float], difference: float) -> list[Evidence]:
-    """Return what scenes say on the claims C1, C3, C4, C6 and C7.
+    """Return what scenes say on the claims C1, C3, C4 and C6.
 
     Parameters
     ----------
@@ -48,7 +47,6 @@ def gather(observed: xr.Dataset, aspect: float, studied: Iterable[float], differ
         *_ratios(observed, aspect, set(studied), difference),
         *_filling(grid),
         *_speeds_and_loads(grid, difference),
-        *_totals(grid),
     ]
 
 
@@ -171,23 +169,12 @@ def _filling(grid: xr.Dataset) -> Iterator[Evidence]:
 def _speeds_and_loads(grid: xr.Dataset, difference: float) -> Iterator[Evidence]:
     for scale, pressure in _pairs(grid, "scale", "pressure"):
         at = grid.sel(scale=scale, pressure=pressure)
-        yield from _peak("C6", (int(scale), float(pressure)), *_known(at, "velocity"))
+        yield from peak("C6", "peaks over speed", (int(scale), float(pressure)), *_known(at, "velocity"))
     for scale, velocity in _pairs(grid, "scale", "velocity"):
         friction, error = _known(grid.sel(scale=scale, velocity=velocity), "pressure")
         if len(friction) > 1:
             where = (int(scale), None, float(velocity))
             yield _spread("C6", "varies with pressure", where, friction, error, "above", difference)
-
-
-def _totals(grid: xr.Dataset) -> Iterator[Evidence]:
-    total = xr.Dataset(
-        {
-            "friction_coefficient": total_friction(grid["friction_coefficient"]),
-            "friction_coefficient_error": total_error(grid["friction_coefficient_error"]),
-        }
-    )
-    for pressure in total["pressure"].values:
-        yield from _peak("C7", (None, float(pressure)), *_known(total.sel(pressure=pressure), "velocity"))
 
 
 def _by_pressure(points: pd.DataFrame) -> Iterator[pd.DataFrame]:
@@ -209,13 +196,22 @@ def _of_one_pressure(group: pd.DataFrame) -> Iterator[Evidence]:
         yield replace(_rise("C8", part, where, friction, error, top, end), simulated=simulated)
 
 
-def _peak(claim: str, where: tuple[int | None, float], friction: Real, error: Real) -> Iterator[Evidence]:
-    """Yield by how much friction between the ends exceeds that at the ends, where there are three speeds."""
+def peak(claim: str, part: str, where: tuple[int | None, float], friction: Real, error: Real) -> Iterator[Evidence]:
+    """Yield by how much friction between the ends exceeds that at the ends, where there are three speeds.
+
+    Parameters
+    ----------
+    claim, part : str
+    where : tuple
+        Scale, or None for all, and pressure, MPa.
+    friction, error : numpy.ndarray, shape (speeds,)
+        Friction coefficients over ascending speed, and their absolute errors.
+    """
     if len(friction) < 3:
         return
     inner = 1 + int(np.argmax(friction[1:-1]))
     end = 0 if friction[0] >= friction[-1] else -1
-    yield _rise(claim, "peaks over speed", (*where, None), friction, error, inner, end)
+    yield _rise(claim, part, (*where, None), friction, error, inner, end)
 
 
 def _rise(claim: str, part: str, where: Where, friction: Real, error: Real, upper: int, lower: int) -> Evidence:

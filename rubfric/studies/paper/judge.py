@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
 from rubfric.config.models import AS_CONFIGURED
+from rubfric.results.scales import TOTAL
+from rubfric.results.totals import WholeRoad, total_table
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note, rig_evidence, rig_note
 from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
+from rubfric.studies.paper.totals import total_evidence, total_note
 from rubfric.studies.paper.verdicts import claims_table, evidence_table
 
 
@@ -45,10 +49,12 @@ class Criteria:
 
 def judge(
     campaign: xr.Dataset,
+    totals: pd.DataFrame,
     profiles: Iterable[xr.Dataset],
     marches: Iterable[xr.Dataset],
     points: pd.DataFrame,
     readings: Mapping[str, pd.DataFrame],
+    roads: Mapping[str, WholeRoad],
     criteria: Criteria,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the verdicts and the numbers that they rest on.
@@ -57,12 +63,16 @@ def judge(
     ----------
     campaign : xarray.Dataset
         As from ``rubfric.results.campaign.collect``.
+    totals : pandas.DataFrame
+        Of the campaign, as from ``rubfric.results.totals.total_table``.
     profiles, marches : iterables of xarray.Dataset
         Results of the scenes whose depth is looked at, and of marches.
     points : pandas.DataFrame
         Points of the test rig.
     readings : mapping of str to pandas.DataFrame
         Observations in each other reading of the paper, a row per scene.
+    roads : mapping of str to WholeRoad
+        The whole road in each other reading.
     criteria : Criteria
 
     Returns
@@ -72,14 +82,19 @@ def judge(
     """
     own = [
         *gather(campaign, criteria.aspect, criteria.studied, criteria.difference),
+        *total_evidence(totals, campaign.sel(aspect=criteria.aspect), criteria.difference),
         *depth_evidence(table(map(profile_row, profiles)), criteria.difference),
         *(march_evidence(march, criteria.saturation) for march in marches),
         *rig_evidence(points),
     ]
-    evidence, notes = {AS_CONFIGURED: own}, {AS_CONFIGURED: {"C5": march_note(own), "C8": rig_note(points)}}
+    evidence = {AS_CONFIGURED: own}
+    notes = {AS_CONFIGURED: {"C5": march_note(own), "C8": rig_note(points), "C9": total_note(totals)}}
     for reading, rows in readings.items():
+        observed = over_axes(rows)
+        sums = total_table(observed, None, roads[reading]).assign(**dict.fromkeys(TOTAL, np.nan))
         evidence[reading] = [
-            *gather(over_axes(rows), criteria.aspect, criteria.studied, criteria.difference),
+            *gather(observed, criteria.aspect, criteria.studied, criteria.difference),
+            *total_evidence(sums, observed.sel(aspect=criteria.aspect), criteria.difference),
             *depth_evidence(rows[among(rows, criteria.profiled)], criteria.difference),
         ]
         notes[reading] = dict.fromkeys(CLAIMS, refusals(rows))

@@ -18,6 +18,7 @@ from bad_configs import BAD_CONFIGS, DEFAULT, MINIMAL, MISSING, ROAD, RUBBER, Ba
 from rubfric.config.campaign import Campaign, load
 from rubfric.config.models import AspectStudy
 from rubfric.errors import InvalidInput
+from rubfric.road.waves import WaveRoad
 from rubfric.scene.numerics import Numerics
 
 
@@ -224,3 +225,32 @@ def test_reading_a_config_imports_nothing_heavy() -> None:
     code = f"import sys, rubfric.config.campaign; print([name for name in {heavy} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_whole_road_is_simulated_over_the_grid_with_a_preset_of_its_own() -> None:
+    campaign = load(DEFAULT)
+    whole = campaign.whole_scenes()
+    assert len(whole) == len(campaign.velocities) * len(campaign.pressures)
+    scene = whole["all_v100_p5_aspect0.75_stress"]
+    assert scene.road == campaign.whole_road
+    assert scene.numerics == campaign.presets["draft"]
+    assert scene.digest not in {other.digest for other in campaign.scenes().values()}
+
+
+@pytest.mark.parametrize("way", ["sum", "cascade", "persson"])
+def test_other_ways_simulate_no_whole_road_and_need_no_period(config: Config, way: str) -> None:
+    config = changed(changed(config, "multiscale", way), "roads.zhou2019.1.wavenumber", 81.1234567)
+    assert Campaign.from_config(config).whole_scenes() == {}
+
+
+def test_random_phases_are_those_of_the_seed_and_more_draws_keep_the_first(config: Config) -> None:
+    def roads(draws: int, seed: int) -> dict[str, WaveRoad]:
+        return Campaign.from_config(changed(config, "phases", {"draws": draws, "seed": seed})).whole_roads
+
+    few, more, others = roads(2, 1), roads(3, 1), roads(2, 2)
+    assert list(few) == ["draw1/", "draw2/"]
+    assert {name: more[name] for name in few} == few
+    assert len({road.phases for road in (*more.values(), *others.values())}) == 5
+    names = list(Campaign.from_config(changed(config, "phases", {"draws": 2, "seed": 1})).whole_scenes())
+    assert len(names) == 84
+    assert names[42] == "draw2/all_v0.1_p0.1_aspect0.75_stress"

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from itertools import combinations, product
 
 import numpy as np
@@ -12,9 +14,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from synthetic_campaign import make_campaign
+from synthetic_campaign import make_campaign, make_totals
 
 from rubfric.figures import style
+from rubfric.road.waves import WaveRoad
 
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
@@ -82,6 +85,42 @@ def make_result() -> ResultMaker:
 
 
 @pytest.fixture(scope="session")
+def make_whole() -> ResultMaker:
+    """Return a function that builds the result of a scene on a road of two waves, in contact on its three crests."""
+
+    def build(pressure: float = 1.0, speed: float = 10.0, kinematics: str = "finite", refusal: str = "") -> xr.Dataset:
+        road = WaveRoad(amplitudes=(0.015, 0.003), wavenumbers=(30.0, 140.0), phases=(0.0, 0.5))
+        attributes = {"scene": "made up", "pressure": pressure, "velocity": speed, "scale": 0, "aspect": 0.75}
+        attributes["scene_parameters"] = json.dumps({"road": asdict(road)})
+        if refusal:
+            return xr.Dataset(attrs=attributes | {"refusal": refusal})
+        columns, rows = 112, 6
+        x, depth = np.linspace(0.0, road.period, columns + 1), 0.15 * np.linspace(0.0, 1.0, rows) ** 2
+        decay = np.exp(-30.0 * depth)[:, None]
+        lift = np.maximum(road.height(x), 0.012) * decay - 0.05 * depth[:, None]
+        density = 0.01 + 0.1 * pressure * (road.height(x) > 0.012) * decay
+        surface = np.arange(224) * (road.period / 224)
+        return xr.Dataset(
+            {
+                "mesh_node_x": ("node", np.tile(x, rows)),
+                "mesh_node_y": ("node", np.repeat(depth, columns + 1)),
+                "displacement_x": ("node", np.zeros(x.size * rows)),
+                "displacement_y": ("node", lift.ravel()),
+                "strain_energy_density": ("node", density.ravel()),
+                "surface_position": ("surface_x", surface),
+                "contact_pressure": ("surface_x", np.where(road.height(surface) > 0.012, 3.0 * pressure, 0.0)),
+                "contact_fraction": 0.275,
+                "friction_coefficient": 0.4321,
+                "friction_coefficient_error": 0.0123,
+                "finite_strain": int(kinematics == "finite"),
+            },
+            attrs=attributes,
+        )
+
+    return build
+
+
+@pytest.fixture(scope="session")
 def words() -> Callable[[Figure], list[str]]:
     """Return a function that lists all that is written in a figure, titles and legends included."""
 
@@ -100,6 +139,12 @@ def series() -> Callable[[Axes], list[tuple[list[float], list[float]]]]:
         return [(list(map(float, line.get_xdata())), list(map(float, line.get_ydata()))) for line in lines]
 
     return read
+
+
+@pytest.fixture(scope="session", name="make_totals")
+def totals_maker() -> TableMaker:
+    """Return a function that builds tables of totals whose ways are known shares of the campaign's sum."""
+    return make_totals
 
 
 @pytest.fixture(scope="session")

@@ -1,29 +1,43 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from rubfric.errors import BrokenResult, InvalidInput
+from rubfric.errors import InvalidInput
 from rubfric.figures import fig7, style
 from rubfric.figures.bands import bands
 from rubfric.figures.peaks import rings
 
 Maker = Callable[..., xr.Dataset]
+TableMaker = Callable[..., pd.DataFrame]
+Drawer = Callable[..., Figure]
+
+
+@pytest.fixture
+def draw(make_totals: TableMaker) -> Drawer:
+    """Return a function that draws a campaign at a pressure, its totals made up."""
+
+    def drawn(campaign: xr.Dataset, pressure: float = 5.0, **totals: Any) -> Figure:
+        return fig7.draw(campaign, make_totals(campaign, **totals), 0.75, pressure)
+
+    return drawn
 
 
 def areas(panel: Axes) -> dict[str, list[np.ndarray]]:
     """Return the corners of each scale's areas."""
     found: dict[str, list[np.ndarray]] = {}
     for area in panel.collections:
-        if area.get_gid() == "error":
+        if not str(area.get_gid()).startswith("scale"):
             continue
         found.setdefault(str(area.get_gid()), []).append(area.get_paths()[0].vertices)
     return found
@@ -34,10 +48,16 @@ def thickness(corners: np.ndarray, speed: float) -> float:
     return float(heights.max() - heights.min())
 
 
-def test_shares_add_up_to_the_total(make_campaign: Maker, series: Callable[..., Any]) -> None:
+def line(panel: Axes, gid: str | None) -> tuple[np.ndarray, np.ndarray]:
+    """Return the data of the line of the sum, or of the total, which has no gid and is drawn first."""
+    found = next(one for one in panel.get_lines() if one.get_gid() == gid)
+    return np.asarray(found.get_xdata()), np.asarray(found.get_ydata())
+
+
+def test_shares_add_up_to_the_sum(make_campaign: Maker, draw: Drawer) -> None:
     campaign = make_campaign()
-    (panel,) = fig7.draw(campaign, 0.75, 5.0).axes
-    ((speeds, total),) = series(panel)
+    (panel,) = draw(campaign).axes
+    speeds, total = line(panel, "sum")
     friction = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0)
     np.testing.assert_allclose(total, friction.sum("scale").values, rtol=1e-12)
     shares = areas(panel)
@@ -49,8 +69,8 @@ def test_shares_add_up_to_the_total(make_campaign: Maker, series: Callable[..., 
         assert sum(stacked.values()) == pytest.approx(total[place])
 
 
-def test_areas_lie_upon_each_other(make_campaign: Maker) -> None:
-    (panel,) = fig7.draw(make_campaign(), 0.75, 5.0).axes
+def test_areas_lie_upon_each_other(make_campaign: Maker, draw: Drawer) -> None:
+    (panel,) = draw(make_campaign()).axes
     bounds = []
     for (corners,) in areas(panel).values():
         heights = corners[np.isclose(corners[:, 0], 10.0), 1]
@@ -60,53 +80,88 @@ def test_areas_lie_upon_each_other(make_campaign: Maker) -> None:
         assert above[0] == pytest.approx(below[1])
 
 
-def test_peak_of_the_total_is_marked(make_campaign: Maker) -> None:
-    campaign = make_campaign()
-    (panel,) = fig7.draw(campaign, 0.75, 5.0).axes
-    total = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0).sum("scale")
-    (ring,) = rings(panel)
-    assert ring.get_xdata()[0] == total["velocity"].values[np.argmax(total.values)]
-    assert ring.get_ydata()[0] == pytest.approx(total.max().item())
-
-
-def test_band_is_the_sum_of_the_errors_of_the_scales(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
-    campaign = make_campaign()
-    figure = fig7.draw(campaign, 0.75, 5.0)
-    (band,) = bands(figure.axes[0])
-    (corners,) = (path.vertices for path in band.get_paths())
-    error = campaign["friction_coefficient_error"].sel(aspect=0.75, pressure=5.0).sum("scale")
-    for speed in campaign["velocity"].values:
-        assert thickness(corners, speed) == pytest.approx(2.0 * error.sel(velocity=speed).item())
-    assert "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%" in words(figure)
-
-
-def test_no_words_cover_each_other(
-    make_campaign: Maker, overlaps: Callable[[Figure], list[tuple[str, str]]], tmp_path: Path
+def test_total_is_all_scales_at_once_with_its_band_and_peak(
+    make_campaign: Maker, draw: Drawer, words: Callable[..., list[str]]
 ) -> None:
     campaign = make_campaign()
-    campaign["friction_coefficient_error"].loc[{"velocity": 1.0}] = np.nan
-    figure = fig7.draw(campaign, 0.75, 5.0)
+    figure = draw(campaign)
+    (panel,) = figure.axes
+    speeds, total = line(panel, None)
+    summed = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0).sum("scale")
+    np.testing.assert_allclose(total, 0.7 * summed, rtol=1e-12)
+    for band in bands(panel):
+        (corners,) = (path.vertices for path in band.get_paths())
+        for speed in speeds:
+            assert thickness(corners, speed) == pytest.approx(0.02 * summed.sel(velocity=speed).item())
+    (ring,) = rings(panel)
+    assert ring.get_xdata()[0] == speeds[np.argmax(total)]
+    assert ring.get_ydata()[0] == pytest.approx(total.max())
+    said = words(figure)
+    assert "total: all scales at once,\none road, these phases" in said
+    assert "estimated error,\nat most 1.5\N{NO-BREAK SPACE}%" in said
+
+
+def test_mean_over_random_phases_is_called_so(
+    make_campaign: Maker, draw: Drawer, words: Callable[..., list[str]]
+) -> None:
+    assert "total: all scales at once,\nmean of random phases" in words(draw(make_campaign(), drawn=True))
+
+
+def test_refused_points_are_open_with_their_whole_error(
+    make_campaign: Maker,
+    draw: Drawer,
+    words: Callable[..., list[str]],
+    overlaps: Callable[[Figure], list[tuple[str, str]]],
+    tmp_path: Path,
+) -> None:
+    campaign = make_campaign()
+    figure = draw(campaign, refused=[(5.0, 100.0)])
     style.save(figure, tmp_path / "figure.png")
+    (panel,) = figure.axes
+    speeds, total = line(panel, None)
+    assert list(speeds[np.isnan(total)]) == [100.0]
+    (points,) = (one for one in panel.get_lines() if one.get_markerfacecolor() == "white" and one.get_gid() is None)
+    summed = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0, velocity=100.0).sum("scale").item()
+    assert list(points.get_xdata()) == [100.0]
+    assert points.get_ydata() == pytest.approx([summed])
+    (bar,) = (one for one in panel.collections if isinstance(one, LineCollection) and one.get_gid() is None)
+    assert bar.get_segments()[0][:, 1] == pytest.approx([0.6 * summed, 1.4 * summed])
+    assert "refused there: sum of the scales,\nwith all of its error" in words(figure)
+    assert panel.get_ylim()[1] > 1.4 * summed
     assert overlaps(figure) == []
 
 
-def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
-    with pytest.raises(BrokenResult, match=r"^the campaign lacks friction_coefficient_error"):
-        fig7.draw(make_campaign().drop_vars("friction_coefficient_error"), 0.75, 5.0)
+def test_total_that_is_the_sum_says_so(
+    make_campaign: Maker, make_totals: TableMaker, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign, refused=list(product(campaign["pressure"].values, campaign["velocity"].values)))
+    said = words(fig7.draw(campaign, table, 0.75, 5.0))
+    assert "total: sum of the scales,\none road, these phases" in said
+    assert not any("refused" in one for one in said)
 
 
-def test_gap_is_bridged_by_no_area(make_campaign: Maker, tmp_path: Path) -> None:
+def test_table_that_lacks_something_is_refused(make_campaign: Maker, make_totals: TableMaker) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign)
+    with pytest.raises(InvalidInput, match=r"^the table of totals lacks the column friction_direct$"):
+        fig7.draw(campaign, table.drop(columns="friction_direct"), 0.75, 5.0)
+    with pytest.raises(InvalidInput, match=r"^the table of totals has no pressure 5 MPa, but 0\.5, 1 MPa$"):
+        fig7.draw(campaign, table[table["pressure_MPa"] < 5.0], 0.75, 5.0)
+
+
+def test_gap_is_bridged_by_no_area(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
     campaign = make_campaign()
     campaign["friction_coefficient"].loc[{"velocity": 10.0, "scale": 3}] = np.nan
-    figure = fig7.draw(campaign, 0.75, 5.0)
+    figure = draw(campaign)
     for parts in areas(figure.axes[0]).values():
         assert [(corners[:, 0].min(), corners[:, 0].max()) for corners in parts] == [(0.1, 1.0), (100.0, 10000.0)]
     style.save(figure, tmp_path / "gap.png")
 
 
-def test_speed_without_neighbours_is_a_bar(make_campaign: Maker, tmp_path: Path) -> None:
+def test_speed_without_neighbours_is_a_bar(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
     campaign = make_campaign(speeds=(10.0,))
-    figure = fig7.draw(campaign, 0.75, 5.0)
+    figure = draw(campaign)
     for scale, (corners,) in zip((4, 3, 2, 1), areas(figure.axes[0]).values(), strict=True):
         assert corners[:, 0].min() < 10.0 < corners[:, 0].max()
         share = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0, scale=scale).item()
@@ -114,20 +169,20 @@ def test_speed_without_neighbours_is_a_bar(make_campaign: Maker, tmp_path: Path)
     style.save(figure, tmp_path / "bar.pdf")
 
 
-def test_zero_friction_is_drawn_without_a_peak(make_campaign: Maker, tmp_path: Path) -> None:
+def test_zero_friction_is_drawn_without_a_peak(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
     campaign = make_campaign()
     campaign["friction_coefficient"][:] = 0.0
-    figure = fig7.draw(campaign, 0.75, 5.0)
+    figure = draw(campaign)
     assert rings(figure.axes[0]) == []
     style.save(figure, tmp_path / "zero.png")
 
 
-def test_what_is_absent_is_refused(make_campaign: Maker) -> None:
+def test_what_is_absent_is_refused(make_campaign: Maker, draw: Drawer) -> None:
     campaign = make_campaign()
     with pytest.raises(InvalidInput, match=r"^pressure 2 MPa is not in the campaign, which has 0\.5, 1, 5 MPa$"):
-        fig7.draw(campaign, 0.75, 2.0)
+        draw(campaign, pressure=2.0)
     campaign["friction_coefficient"].loc[{"scale": 2}] = np.nan
     with pytest.raises(
         InvalidInput, match=r"^the campaign has no speed at which all scales were run at pressure 5 MPa"
     ):
-        fig7.draw(campaign, 0.75, 5.0)
+        draw(campaign)

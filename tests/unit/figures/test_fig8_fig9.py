@@ -35,6 +35,13 @@ def points(source: str = "measured", count: int = 3) -> pd.DataFrame:
     return pd.DataFrame(rows).iloc[:count]
 
 
+def totals(campaign: xr.Dataset) -> pd.DataFrame:
+    """Return a table of totals with the friction of one scale."""
+    rows = campaign.sel(scale=1, aspect=0.75)[["friction_coefficient", "friction_coefficient_error"]].to_dataframe()
+    names = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa", "friction_coefficient": "friction_total"}
+    return rows.reset_index().rename(columns=names | {"friction_coefficient_error": "friction_total_error"})
+
+
 def drawn(panel: object) -> np.ndarray:
     """Return the points of a panel, sorted."""
     found = [bar.lines[0].get_xydata() for bar in panel.containers if isinstance(bar, ErrorbarContainer)]  # type: ignore[attr-defined]
@@ -42,15 +49,15 @@ def drawn(panel: object) -> np.ndarray:
 
 
 def test_points_stand_where_they_were_measured(make_campaign: Maker) -> None:
-    over_speed, over_pressure = fig9.draw(make_campaign(), points(), 0.75, PRESSURES, SPEEDS).axes
+    over_speed, over_pressure = fig9.draw(totals(make_campaign()), points(), PRESSURES, SPEEDS).axes
     np.testing.assert_allclose(drawn(over_speed), [(1.0, 0.5), (10.2, 0.9), (700.0, 0.7)])
     np.testing.assert_allclose(drawn(over_pressure), [(4.9, 0.9)])
 
 
 def test_lines_are_the_simulated_friction_with_its_band(make_campaign: Maker) -> None:
-    campaign = make_campaign()
-    over_speed, over_pressure = fig9.draw(campaign, points(), 0.75, PRESSURES, SPEEDS).axes
-    friction = FrictionMap.from_campaign(campaign, 0.75)
+    table = totals(make_campaign())
+    over_speed, over_pressure = fig9.draw(table, points(), PRESSURES, SPEEDS).axes
+    friction = FrictionMap.from_totals(table)
     lines = [line for line in over_speed.get_lines() if line.get_xdata().size > 100]
     for line, pressure in zip(lines, PRESSURES, strict=True):
         np.testing.assert_allclose(line.get_ydata(), friction.at(pressure)(line.get_xdata()))
@@ -59,7 +66,7 @@ def test_lines_are_the_simulated_friction_with_its_band(make_campaign: Maker) ->
 
 
 def test_no_point_and_no_line_are_drawn_too(make_campaign: Maker, tmp_path: Path) -> None:
-    figure = fig9.draw(make_campaign(), points(count=0), 0.75, [50.0], [1e6])
+    figure = fig9.draw(totals(make_campaign()), points(count=0), [50.0], [1e6])
     assert figure.get_supxlabel() == "No point could be measured."
     assert not bands(figure.axes[0])
     style.save(figure, tmp_path / "fig9.png")
@@ -67,7 +74,7 @@ def test_no_point_and_no_line_are_drawn_too(make_campaign: Maker, tmp_path: Path
 
 def test_table_without_its_columns_is_refused(make_campaign: Maker) -> None:
     with pytest.raises(InvalidInput, match="the table of the rig lacks the column pressure_ci95_MPa"):
-        fig9.draw(make_campaign(), points().drop(columns="pressure_ci95_MPa"), 0.75, PRESSURES, SPEEDS)
+        fig9.draw(totals(make_campaign()), points().drop(columns="pressure_ci95_MPa"), PRESSURES, SPEEDS)
 
 
 def test_no_words_of_the_scheme_overlap() -> None:

@@ -12,7 +12,7 @@ import xarray as xr
 
 from rubfric.errors import BrokenResult
 from rubfric.results.scalars import SCALARS
-from rubfric.results.tables import read_table, scale_table, total_table, write_table
+from rubfric.results.tables import read_table, scale_table, write_table
 
 SCALES, VELOCITIES, PRESSURES, ASPECTS = (1, 2), (0.1, 100.0, 10000.0), (0.5, 5.0), (0.5, 0.75)
 
@@ -77,41 +77,10 @@ def test_counts_are_whole_numbers(campaign: xr.Dataset) -> None:
         assert table[name].dtype.kind == "i"
 
 
-def test_total_table_adds_up_its_scales(campaign: xr.Dataset) -> None:
-    table = total_table(campaign, 0.75)
-    assert list(table.columns) == [
-        "velocity_mm_per_s",
-        "pressure_MPa",
-        "friction_scale_1",
-        "friction_scale_2",
-        "friction_total",
-        "friction_total_error",
-        "nominal_compression",
-    ]
-    places = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
-    assert places == list(product(PRESSURES, VELOCITIES))
-    assert table["friction_scale_2"].tolist() == [mu(2, v, p, 0.75) for p, v in places]
-    np.testing.assert_allclose(
-        table["friction_total"], table["friction_scale_1"] + table["friction_scale_2"], rtol=1e-12
-    )
-
-
 def test_tables_carry_the_errors(campaign: xr.Dataset) -> None:
     for scale in SCALES:
         table = scale_table(campaign, scale)
         np.testing.assert_allclose(table["friction_coefficient_error"], 0.01 * table["friction_coefficient"])
-    total = total_table(campaign, 0.75)
-    np.testing.assert_allclose(total["friction_total_error"], 0.01 * total["friction_total"])
-
-
-def test_unknown_error_hides_no_friction(campaign: xr.Dataset) -> None:
-    place = {"scale": 2, "velocity": 100.0, "pressure": 5.0, "aspect": 0.75}
-    campaign["friction_coefficient_error"].loc[place] = np.nan
-    table = total_table(campaign, 0.75)
-    assert len(table) == 6
-    unknown = table[table["friction_total_error"].isna()]
-    assert unknown[["velocity_mm_per_s", "pressure_MPa"]].to_numpy().tolist() == [[100.0, 5.0]]
-    assert unknown["friction_total"].item() == pytest.approx(mu(1, 100.0, 5.0, 0.75) + mu(2, 100.0, 5.0, 0.75))
 
 
 def test_campaign_of_an_earlier_version_is_refused(campaign: xr.Dataset) -> None:
@@ -119,16 +88,6 @@ def test_campaign_of_an_earlier_version_is_refused(campaign: xr.Dataset) -> None
     complaint = r"^the campaign lacks friction_coefficient_error: gather the results of its scenes again$"
     with pytest.raises(BrokenResult, match=complaint):
         scale_table(older, 1)
-    with pytest.raises(BrokenResult, match=complaint):
-        total_table(older, 0.75)
-
-
-def test_total_table_leaves_out_what_lacks_a_scale(campaign: xr.Dataset) -> None:
-    campaign["friction_coefficient"].loc[{"scale": 2, "velocity": 100.0, "pressure": 5.0, "aspect": 0.75}] = np.nan
-    table = total_table(campaign, 0.75)
-    assert len(table) == 5
-    assert (100.0, 5.0) not in set(zip(table["velocity_mm_per_s"], table["pressure_MPa"], strict=True))
-    assert total_table(campaign, 0.5).empty
 
 
 def test_table_reads_back_with_six_digits(campaign: xr.Dataset, tmp_path: Path) -> None:

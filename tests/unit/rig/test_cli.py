@@ -13,6 +13,7 @@ from rubfric import cli
 from rubfric.results.campaign import AXES, read
 from rubfric.results.dataset import write
 from rubfric.results.friction_map import FrictionMap
+from rubfric.results.tables import write_table
 
 CONFIG = Path(__file__).resolve().parents[3] / "config" / "config.yaml"
 
@@ -27,6 +28,10 @@ def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = xr.Dataset({name: (tuple(AXES), field) for name, field in fields.items()}, coords=axes)
     path = tmp_path_factory.mktemp("campaign") / "campaign.nc"
     write(made, path)
+    totals = made.sel(scale=1, aspect=0.75)[list(fields)].to_dataframe().reset_index()
+    names = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa", "friction_coefficient": "friction_total"}
+    totals = totals.rename(columns=names | {"friction_coefficient_error": "friction_total_error"})
+    write_table(totals, path.parent / "tables" / "friction_total.csv")
     return path
 
 
@@ -56,7 +61,7 @@ def test_simulated_run_is_reduced_to_its_speed(
     table = pd.read_csv(points)
     assert set(table["source"]) == {"simulated"}
     assert table["speed_mm_per_s"].iloc[-1] == pytest.approx(5.0, rel=0.01)
-    truth = float(FrictionMap.from_campaign(read(campaign), 0.75).at(1.0)(5.0))
+    truth = float(FrictionMap.from_campaign(read(campaign), 0.75, 1).at(1.0)(5.0))
     assert table["friction_coefficient"].iloc[-1] == pytest.approx(truth, rel=0.01)
     assert list(pd.read_csv(rejected).columns)[-2:] == ["reason", "source"]
 
@@ -115,7 +120,7 @@ def test_missing_campaign_says_what_to_do(
     monkeypatch.chdir(tmp_path)
     assert run("simulate", "--pressure", 1, "--weight", 1, "--config", CONFIG, "-o", "x.csv") == 2
     assert capsys.readouterr().err == (
-        "rubfric: there is no results/campaign.nc: run snakemake first, or give --campaign FILE\n"
+        "rubfric: there is no results/tables/friction_total.csv: run snakemake first, or give --campaign FILE\n"
     )
 
 

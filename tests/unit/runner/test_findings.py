@@ -55,17 +55,31 @@ def test_road_without_friction_has_no_largest_error(tables: list[Path]) -> None:
     assert findings(tables[:1]) == ["none of 2 scenes carries a warning"]
 
 
-def test_highest_friction_has_its_error_and_place(tmp_path: Path) -> None:
+HEAD = "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error,refused,way\n"
+
+
+def test_highest_friction_has_its_error_place_and_way(tmp_path: Path) -> None:
     table = tmp_path / "friction_total.csv"
     table.write_text(
-        "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n"
-        "1,0.5,0.31,0.002\n10000,5,1.0411,0.00754\n100,5,,\n10,5,0.2,\n"
+        f"{HEAD}1,0.5,0.31,0.002,0,direct\n10000,5,1.0411,0.00754,0,sum\n100,5,,,0,direct\n10,5,0.2,,0,direct\n"
     )
-    assert highest(table) == "at most 1.04 ± 0.008, at 10000 mm/s and 5 MPa"
-    table.write_text("velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error\n")
+    assert highest(table) == "at most 1.04 ± 0.008, at 10000 mm/s and 5 MPa (sum over the scales)"
+    table.write_text(HEAD)
     assert highest(table) == ""
     table.unlink()
     assert highest(table) == ""
+
+
+def test_largest_error_of_the_whole_road_and_its_refusals_are_told(tmp_path: Path) -> None:
+    table = tmp_path / "friction_total.csv"
+    table.write_text(f"{HEAD}1,0.5,0.3,0.003,0,direct\n1,5,0.4,0.1,1,sum\n100,0.5,0.0,0.0,0,direct\n")
+    worst, refused = findings([table])
+    assert worst == "largest error of the whole road's friction 25 %, sum over the scales, at 1 mm/s, 5 MPa"
+    told = "scenes of the whole road were refused at 1 of 3 points: 1 mm/s, 5 MPa; why is in "
+    assert refused == f"{told}{table}, column note"
+    table.write_text(HEAD + "".join(f"{v},5,0.4,0.1,2,sum\n" for v in range(1, 10)))
+    assert "refused at 9 of 9 points: 1 mm/s, 5 MPa; " in findings([table])[1]
+    assert "; 5 mm/s, 5 MPa; and 4 more; why" in findings([table])[1]
 
 
 def test_verdicts_are_counted_over_all_pressures_of_the_campaign(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ from rubfric.mechanics.block.contact import Convolution, pivot
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Linearised, Load, SlidingContact, SlopedSurface
+from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact, SlopedSurface
 from rubfric.mechanics.finite.law import Inverted
 from rubfric.mechanics.finite.newton import Solved, newton
 from rubfric.road.sine import SineScale
@@ -163,23 +163,46 @@ def test_linearised_is_the_derivative_at_fixed_contact(
     circulant = averaged(problem, found.fields, pressure)
     correction = problem.correct(circulant, found.fields, load(pressure), found.correction.contact.touching)
     stiffness = finite.stiffness(found.fields, correction.state)
-    linear = Linearised(problem, circulant, stiffness, correction, load(pressure))
+    touching = correction.contact.touching
+    linear = Linearised(problem, circulant, stiffness, correction, load(pressure), touching)
     step = random_step(finite, rng)
 
-    def left(sign: float) -> Fields:
+    def left(sign: float) -> Correction:
         moved = found.fields.moved(step, sign * share)
         there = problem.correct(circulant, moved, load(pressure), correction.contact.touching)
         np.testing.assert_array_equal(there.contact.touching, correction.contact.touching)
-        return there.step
+        return there
 
-    ahead, behind = left(1.0), left(-1.0)
-    change = linear(step)
+    one, other = left(1.0), left(-1.0)
+    change, pressure_change = linear.change(step)
+    pushed = (one.contact.pressure - other.contact.pressure) / (2.0 * share)
+    np.testing.assert_allclose(pressure_change, pushed, atol=1e-4 * np.abs(pushed).max())
+    ahead, behind = one.step, other.step
     numeric = (behind.displacement - ahead.displacement) / (2.0 * share)
     np.testing.assert_allclose(change.displacement, numeric, atol=1e-4 * np.abs(numeric).max())
     numeric = (behind.log_thickness - ahead.log_thickness) / (2.0 * share)
     np.testing.assert_allclose(change.log_thickness, numeric, atol=1e-4)
     numeric = (behind.volume - ahead.volume) / (2.0 * share)
     np.testing.assert_allclose(change.volume, numeric, atol=1e-4)
+
+
+@PLANES
+def test_rest_is_the_correction_at_given_contact_nodes(plane: str) -> None:
+    problem = sliding(coarse(plane))
+    fields = flat(problem.finite, 0.5)
+    circulant = averaged(problem, fields, 0.5)
+    correction = problem.correct(circulant, fields, load(0.5), everywhere(problem.finite))
+    stiffness = problem.finite.stiffness(fields, correction.state)
+    chosen = correction.contact.touching
+    step, pressure = Linearised(problem, circulant, stiffness, correction, load(0.5), chosen).rest()
+    assert step is correction.step
+    assert pressure is correction.contact.pressure
+    others = chosen ^ (np.arange(len(chosen)) == np.flatnonzero(chosen)[0])
+    linear = Linearised(problem, circulant, stiffness, correction, load(0.5), others)
+    step, pressure = linear.rest()
+    np.testing.assert_allclose((correction.above + linear.along_normals(step))[others], 0.0, atol=1e-12 * AMPLITUDE)
+    assert pressure.mean() == pytest.approx(0.5, rel=1e-12)
+    assert np.array_equal(pressure != 0.0, others)
 
 
 @PLANES

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rubfric.mechanics.steady.energies import Energies, output_stride, rows_to_nodes
+from rubfric.road.waves import WaveRoad
+from rubfric.scene.numerics import Numerics
+from rubfric.scene.scene import Scene
+
+SceneMaker = Callable[..., Scene]
 
 
 def energies(stress_power: float, dissipation: float, contact: float) -> Energies:
@@ -50,8 +58,19 @@ def test_rows_to_nodes_keeps_what_is_the_same_in_every_row(rng: np.random.Genera
         (600, 128, 5),
         (264, 128, 3),
         (1000, 128, 10),
-        (8, 4, 2),
+        (16, 8, 2),
     ],
 )
-def test_output_stride_is_the_least_that_suffices_and_keeps_the_crest(columns: int, most: int, stride: int) -> None:
-    assert output_stride(columns, most) == stride
+def test_output_stride_is_the_least_that_suffices_and_keeps_the_crest(
+    paper_scene: SceneMaker, columns: int, most: int, stride: int
+) -> None:
+    assert output_stride(paper_scene(100.0, 1.0, numerics=Numerics(output_columns=most)), columns, 20) == stride
+
+
+@pytest.mark.parametrize(("columns", "rows", "kept"), [(1920, 40, 1920), (3840, 40, 1920), (3840, 100, 960)])
+def test_output_of_many_waves_keeps_the_finest_and_is_bounded(
+    paper_scene: SceneMaker, columns: int, rows: int, kept: int
+) -> None:
+    road = WaveRoad(amplitudes=(0.01, 0.002), wavenumbers=(35.0, 300.0), phases=(0.0, 0.0))
+    scene = replace(paper_scene(100.0, 1.0), scale="all", road=road)
+    assert columns // output_stride(scene, columns, rows) == kept

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 
 import numpy as np
 import pytest
 import xarray as xr
+
+from rubfric.road.waves import WaveRoad
 
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
@@ -79,6 +82,37 @@ def make_result() -> ResultMaker:
             attrs={
                 **{"scene": "made up", "scale": scale, "velocity": speed, "pressure": pressure, "aspect": 0.75},
                 **{"kinematics_reason": "it was asked for", "warnings": "Beware.\nOf two things."},
+            },
+        )
+
+    return build
+
+
+@pytest.fixture(scope="session")
+def make_whole_result() -> ResultMaker:
+    """Return a function that builds the result of a scene on a road of two waves, in contact on its crests."""
+
+    def build(speed: float = 10.0, pressure: float = 0.5, finite: bool = True) -> xr.Dataset:
+        road = WaveRoad(amplitudes=(0.01, 0.003), wavenumbers=(35.0, 87.5), phases=(0.0, 0.4))
+        x, depth = np.linspace(0.0, road.period, 81), 0.13 * np.linspace(0.0, 1.0, 10) ** 2
+        decay = np.exp(-20.0 * depth)[:, None]
+        surface = np.arange(160) * (road.period / 160)
+        load = 3.0 * pressure * (road.height(surface) > 0.008)
+        return xr.Dataset(
+            {
+                "mesh_node_x": ("node", np.tile(x, 10)),
+                "mesh_node_y": ("node", np.repeat(depth, 81)),
+                "displacement_x": ("node", np.zeros(x.size * 10)),
+                "displacement_y": ("node", (np.maximum(road.height(x), 0.008) * decay).ravel()),
+                "strain_energy_density": ("node", (0.01 + decay * (1.1 + np.sin(35.0 * x))).ravel()),
+                "surface_position": ("surface_x", surface),
+                "contact_pressure": ("surface_x", load),
+                "finite_strain": int(finite),
+            },
+            attrs={
+                **{"scene": "made up", "scale": 0, "velocity": speed, "pressure": pressure, "aspect": 0.75},
+                **{"kinematics_reason": "it was asked for", "warnings": "Beware.\nOf two things."},
+                "scene_parameters": json.dumps({"road": asdict(road)}),
             },
         )
 

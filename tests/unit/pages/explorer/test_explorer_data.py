@@ -9,10 +9,10 @@ from itertools import product
 import numpy as np
 import pytest
 import xarray as xr
+from synthetic_campaign import make_totals
 
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.pages.explorer.data import payload
-from rubfric.results.scales import total_error, total_friction
 
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
@@ -20,7 +20,7 @@ ResultMaker = Callable[..., xr.Dataset]
 
 def test_curves_are_those_of_the_campaign(make_campaign: CampaignMaker) -> None:
     campaign = make_campaign()
-    found = payload(campaign, [], 0.75, "road")
+    found = payload(campaign, make_totals(campaign), [], 0.75, "road")
     grid = campaign.sel(aspect=0.75).transpose("scale", "pressure", "velocity")
     friction, error = grid["friction_coefficient"], grid["friction_coefficient_error"]
     assert found["speeds"] == [1.0, 10.0, 100.0]
@@ -28,7 +28,7 @@ def test_curves_are_those_of_the_campaign(make_campaign: CampaignMaker) -> None:
     for name, values, errors in (
         ("1", friction.sel(scale=1), error.sel(scale=1)),
         ("2", friction.sel(scale=2), error.sel(scale=2)),
-        ("total", total_friction(friction), total_error(error)),
+        ("total", 0.7 * friction.sum("scale"), 0.01 * friction.sum("scale")),
     ):
         assert np.array(found["curves"][name]["friction"]) == pytest.approx(values.values, rel=1e-7)
         assert np.array(found["curves"][name]["error"]) == pytest.approx(errors.values, rel=1e-7)
@@ -40,8 +40,9 @@ def test_curves_are_those_of_the_campaign(make_campaign: CampaignMaker) -> None:
 def test_every_scene_has_its_numbers_reason_and_warnings(
     make_campaign: CampaignMaker, make_result: ResultMaker
 ) -> None:
+    campaign = make_campaign()
     results = [make_result(*place) for place in product((1, 2), (1.0, 10.0, 100.0), (0.5, 5.0))]
-    found = payload(make_campaign(), reversed(results), 0.75, "road")
+    found = payload(campaign, make_totals(campaign), reversed(results), 0.75, "road")
     begins = set()
     for scale, rows in found["scenes"].items():
         for row, pressure in zip(rows, (0.5, 5.0), strict=True):
@@ -66,7 +67,8 @@ def test_pictures_are_thinned_where_there_are_many(
         monkeypatch.setattr("rubfric.pages.explorer.data._ROOM", room)
         monkeypatch.setattr("rubfric.pages.explorer.data._FEWEST", (4, 8))
         monkeypatch.setattr("rubfric.pages.explorer.data._MOST", (10, 32))
-        scene = payload(make_campaign(), [make_result()], 0.75, "road")["scenes"]["1"][0][1]
+        campaign = make_campaign()
+        scene = payload(campaign, make_totals(campaign), [make_result()], 0.75, "road")["scenes"]["1"][0][1]
         sizes.append((scene["picture"]["rows"], scene["picture"]["columns"]))
     assert sizes[0][0] == 10
     assert sizes[1] == (5, 20)
@@ -78,7 +80,7 @@ def test_gaps_are_none_and_empty_axes_are_left_out(make_campaign: CampaignMaker)
         if "velocity" in campaign[name].dims:
             campaign[name].loc[{"scale": 1, "velocity": 10.0, "pressure": 0.5}] = np.nan
             campaign[name].loc[{"velocity": 100.0, "aspect": 0.75}] = np.nan
-    found = payload(campaign, [], 0.75, "road")
+    found = payload(campaign, make_totals(campaign), [], 0.75, "road")
     assert found["speeds"] == [1.0, 10.0]
     assert found["curves"]["1"]["friction"][0][1] is None
     assert found["curves"]["2"]["friction"][0][1] is not None
@@ -89,7 +91,9 @@ def test_gaps_are_none_and_empty_axes_are_left_out(make_campaign: CampaignMaker)
 
 
 def test_one_scale_has_no_total(make_campaign: CampaignMaker) -> None:
-    found = payload(make_campaign(scales=(3,), speeds=(1.0,), pressures=(2.0,)), [], 0.75, "road")
+    campaign = make_campaign(scales=(3,), speeds=(1.0,), pressures=(2.0,))
+    found = payload(campaign, make_totals(campaign), [], 0.75, "road")
+    assert "totals" not in found
     assert set(found["curves"]) == {"3"}
     assert found["curves"]["3"]["peaks"] == [{"kind": "few", "at": 0, "between": None, "missing": 0}]
     json.dumps(found, allow_nan=False)
@@ -98,12 +102,91 @@ def test_one_scale_has_no_total(make_campaign: CampaignMaker) -> None:
 def test_what_does_not_fit_is_refused(make_campaign: CampaignMaker, make_result: ResultMaker) -> None:
     campaign = make_campaign()
     with pytest.raises(InvalidInput, match=r"ratio 2 is not in the campaign, which has 0\.5, 0\.75"):
-        payload(campaign, [], 2.0, "road")
+        payload(campaign, make_totals(campaign), [], 2.0, "road")
     with pytest.raises(BrokenResult, match=r"lacks energy_closure"):
-        payload(campaign.drop_vars("energy_closure"), [], 0.75, "road")
+        payload(campaign.drop_vars("energy_closure"), make_totals(campaign), [], 0.75, "road")
     with pytest.raises(InvalidInput, match=r"scene made up is not among"):
-        payload(campaign, [make_result(speed=3.0)], 0.75, "road")
+        payload(campaign, make_totals(campaign), [make_result(speed=3.0)], 0.75, "road")
     with pytest.raises(InvalidInput, match=r"scene made up is not among"):
-        payload(campaign, [make_result().assign_attrs(aspect=0.5)], 0.75, "road")
+        payload(campaign, make_totals(campaign), [make_result().assign_attrs(aspect=0.5)], 0.75, "road")
     with pytest.raises(InvalidInput, match=r"holds no friction coefficient at the height-to-width ratio 0\.75"):
-        payload(campaign.where(campaign["aspect"] < 0.6), [], 0.75, "road")
+        payload(campaign.where(campaign["aspect"] < 0.6), make_totals(campaign), [], 0.75, "road")
+
+
+def make_whole(campaign: xr.Dataset, refused: dict[tuple[float, float], str]) -> xr.Dataset:
+    """Return the collection of the whole road: that of scale 1 halved, and NaN at the pressures and speeds refused."""
+    whole = 0.5 * campaign.sel(scale=[1], aspect=[0.75]).assign_coords(scale=[0])
+    for pressure, speed in refused:
+        for name in whole.data_vars:
+            if "velocity" in whole[name].dims:
+                whole[name].loc[{"pressure": pressure, "velocity": speed}] = np.nan
+    said = [[[0, speed, pressure, 0.75], reason] for (pressure, speed), reason in refused.items()]
+    return whole.assign_attrs(refusals=json.dumps(said))
+
+
+def test_totals_have_every_way_and_the_parts_of_the_error(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign()
+    found = payload(campaign, make_totals(campaign, refused=[(5.0, 10.0)]), [], 0.75, "road")
+    summed = campaign["friction_coefficient"].sel(aspect=0.75).sum("scale").transpose("pressure", "velocity").values
+    totals = found["totals"]
+    for way, share in (("sum", 1.0), ("cascade", 0.9), ("persson", 0.8)):
+        assert np.array(totals["ways"][way]["friction"]) == pytest.approx(share * summed, rel=1e-7)
+        assert np.array(totals["ways"][way]["error"]) == pytest.approx(0.4 * summed, rel=1e-7)
+    assert totals["ways"]["direct"]["friction"][1][1] is None
+    assert found["curves"]["total"]["friction"][1][1] == pytest.approx(summed[1, 1], rel=1e-7)
+    assert found["curves"]["total"]["error"][1][1] == pytest.approx(0.4 * summed[1, 1], rel=1e-7)
+    assert totals["way"] == [["direct"] * 3, ["direct", "sum", "direct"]]
+    assert totals["note"][1][1] == "no solution"
+    assert totals["parts"]["coupling"][1] == pytest.approx([0.0, 0.39 * summed[1, 1], 0.0], rel=1e-7)
+    assert totals["parts"]["road"][0][0] is None
+    json.dumps(found, allow_nan=False)
+
+
+def test_table_of_six_digits_finds_its_place(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign(speeds=(1.0, 123.456789, 1000.0))
+    table = make_totals(campaign).round({"velocity_mm_per_s": 3})
+    found = payload(campaign, table, [], 0.75, "road")
+    assert None not in found["curves"]["total"]["friction"][0]
+    assert found["speeds"] == [1.0, 123.45679, 1000.0]
+
+
+def test_whole_road_is_a_place_of_its_own(make_campaign: CampaignMaker, make_whole_result: ResultMaker) -> None:
+    campaign = make_campaign()
+    whole = make_whole(campaign, {(5.0, 10.0): "all_v10_p5_aspect0.75_stress: not converged: so"})
+    result = make_whole_result(speed=10.0, pressure=0.5)
+    found = payload(campaign, make_totals(campaign), [result], 0.75, "road", whole)
+    friction = campaign["friction_coefficient"].sel(scale=1, aspect=0.75, velocity=1.0, pressure=5.0).item()
+    assert found["curves"]["whole"]["friction"][1][0] == pytest.approx(0.5 * friction, rel=1e-7)
+    assert found["curves"]["whole"]["friction"][1][1] is None
+    assert found["refusals"] == [[None] * 3, [None, "not converged: so", None]]
+    scene = found["scenes"]["whole"][0][1]
+    assert scene["warnings"] == ["Beware.", "Of two things."]
+    assert scene["picture"]["x"][0] <= 0.0 < found["whole"]["period"] <= scene["picture"]["x"][1]
+    road = found["whole"]
+    assert len(road["waves"]) == 2
+    assert road["lowest"] < 0.0 < road["highest"]
+    heights = [sum(a * np.sin(k * x + phase) for a, k, phase in road["waves"]) for x in (road["crest"], 0.0)]
+    assert heights[0] == pytest.approx(road["highest"])
+    assert "whole" not in found["scales"]
+    json.dumps(found, allow_nan=False)
+
+
+def test_whole_road_without_a_picture_has_numbers(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign()
+    found = payload(campaign, make_totals(campaign), [], 0.75, "road", make_whole(campaign, {}))
+    assert found["whole"] == {"number": "whole", "draws": 0, "wavelength": pytest.approx(4 * np.pi / 35), "waves": []}
+    assert found["scenes"]["whole"][0][0]["rows"] == pytest.approx(4.75)
+
+
+def test_mean_over_random_roads_says_over_how_many(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign()
+    whole = make_whole(campaign, {}).assign(draws=4)
+    assert payload(campaign, make_totals(campaign), [], 0.75, "road", whole)["whole"]["draws"] == 4
+
+
+def test_result_of_the_whole_road_needs_its_collection(
+    make_campaign: CampaignMaker, make_whole_result: ResultMaker
+) -> None:
+    campaign = make_campaign()
+    with pytest.raises(InvalidInput, match=r"scene made up is not among"):
+        payload(campaign, make_totals(campaign), [make_whole_result()], 0.75, "road")

@@ -113,3 +113,18 @@ def test_block_without_strain_has_a_picture(make_result: ResultMaker) -> None:
 def test_result_that_lacks_something_is_refused(make_result: ResultMaker) -> None:
     with pytest.raises(InvalidInput, match=r"the result made up lacks displacement_x, contact_pressure"):
         picture(make_result().drop_vars(["contact_pressure", "displacement_x"]), 10, 20)
+
+
+def test_picture_of_the_whole_road_is_a_period_with_more_columns(make_whole_result: ResultMaker) -> None:
+    result = make_whole_result()
+    period = float(np.ptp(result["mesh_node_x"].values))
+    assert stretch(result) == (0.0, period)
+    made = picture(result, 100, 8)
+    found = opened(made.about, made.values)
+    assert made.about["columns"] == 48
+    assert found["x"].min() <= 0.0 < period <= found["x"].max()
+    load = result["contact_pressure"].values > 0.0
+    spots = np.count_nonzero(load & ~np.roll(load, 1))
+    on = found["load"] > 0.0
+    assert spots > 1
+    assert np.count_nonzero(on[1:] & ~on[:-1]) + int(on[0]) >= spots

@@ -9,8 +9,9 @@ import pytest
 
 import rubfric
 from rubfric.config.campaign import Campaign
-from rubfric.scene.scene import Scene
-from rubfric.studies.accuracy.scenes import SETS, batches, drawn_scenes, fixed_scenes
+from rubfric.road.road import finest_waves
+from rubfric.scene.scene import ALL, Scene
+from rubfric.studies.accuracy.scenes import SETS, batches, drawn_scenes, fixed_scenes, whole_scenes
 
 CONFIG = Path(rubfric.__file__).resolve().parent.parent / "config" / "config.yaml"
 COUNT, SEED = 60, 7
@@ -120,6 +121,26 @@ def test_a_third_asks_for_small_strain_in_both_planes(drawn: dict[str, Scene], k
     assert len(small) == COUNT // 3
     assert {scene.kinematics for scene in scenes} == {"small", "auto"}
     assert {scene.plane for scene in small} == {scene.plane for scene in scenes} == {"stress", "strain"}
+
+
+def test_whole_roads_are_the_papers_with_random_phases_and_others(campaign: Campaign) -> None:
+    drawn = whole_scenes(campaign, COUNT, SEED)
+    assert list(drawn) == [f"whole_{number}" for number in range(COUNT)]
+    assert drawn == whole_scenes(campaign, COUNT, SEED)
+    assert {scene.scale for scene in drawn.values()} == {ALL}
+    papers, others = (list(drawn.values())[first::2] for first in (0, 1))
+    whole = campaign.whole_road
+    assert all((scene.road.amplitudes, scene.road.period) == (whole.amplitudes, whole.period) for scene in papers)
+    assert len({scene.road.phases for scene in papers}) == len(papers)
+    assert all(0.1 <= scene.velocity <= 1e4 and 0.1 <= scene.pressure <= 5.0 for scene in papers)
+    waves = [len(scene.road.amplitudes) for scene in others]
+    assert 2 <= min(waves) < 8 < 32 < max(waves) <= 64
+    assert all(0.1 * (1.0 - 1e-9) <= scene.road.steepest_slope <= 3.0 * (1.0 + 1e-9) for scene in others)
+    assert all(finest_waves(scene.road) <= 128 for scene in others)
+    for scenes in (papers, others):
+        assert sum(scene.kinematics == "auto" for scene in scenes) == COUNT // 6
+        assert {scene.kinematics for scene in scenes} == {"auto", "small"}
+        assert {scene.plane for scene in scenes} == {"stress", "strain"}
 
 
 @pytest.mark.parametrize("size", [1, 4, 5, 20])

@@ -101,14 +101,12 @@ def test_filling_of_the_profile() -> None:
 @pytest.mark.parametrize(
     ("over_speed", "outcome"), [(BELL, "yes"), (np.array([1.0, 2.0, 3.0, 4.0]), "no"), (BELL[::-1], "yes")]
 )
-def test_peak_over_speed_on_each_scale_and_in_the_total(over_speed: np.ndarray, outcome: str) -> None:
-    observed = campaign(over_speed=over_speed)
-    scales, total = of(observed, "C6", "peaks over speed"), of(observed, "C7", "peaks over speed")
+def test_peak_over_speed_on_each_scale(over_speed: np.ndarray, outcome: str) -> None:
+    scales = of(campaign(over_speed=over_speed), "C6", "peaks over speed")
     assert [(one.scale, one.pressure) for one in scales] == list(product([1, 2], PRESSURES))
-    assert [(one.scale, one.pressure) for one in total] == [(None, 0.5), (None, 5.0)]
-    assert outcomes(scales) == outcomes(total) == {outcome}
+    assert outcomes(scales) == {outcome}
     expected = max(over_speed[1:-1]) / max(over_speed[0], over_speed[-1]) - 1.0
-    assert [one.value for one in (*scales, *total)] == pytest.approx([expected] * 6)
+    assert [one.value for one in scales] == pytest.approx([expected] * 4)
 
 
 @pytest.mark.parametrize(("last", "outcome"), [(2.0, "yes"), (1.01, "no"), (1.0526, "open")])
@@ -121,13 +119,6 @@ def test_scenes_that_are_missing_leave_no_evidence() -> None:
     for name in ("friction_coefficient", "friction_coefficient_error", "contact_fraction", "columns"):
         observed[name][:] = np.nan
     assert gather(observed, 0.75, PRESSURES, 0.05) == []
-
-
-def test_one_missing_scale_takes_the_total_away() -> None:
-    observed = campaign()
-    observed["friction_coefficient"][0] = np.nan
-    assert of(observed, "C7", "peaks over speed") == []
-    assert {one.scale for one in of(observed, "C6", "peaks over speed")} == {2}
 
 
 def test_depth_profiles() -> None:

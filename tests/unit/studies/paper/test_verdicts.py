@@ -22,8 +22,8 @@ from rubfric.studies.paper.verdicts import (
 
 
 def peak(value: float, pressure: float, claim: str = "C7", error: float = 0.01) -> Evidence:
-    scale = None if claim == "C7" else 2
-    return Evidence(claim, "peaks over speed", scale, pressure, None, value, error, 0.0, "above")
+    scale, part = (None, "the whole road peaks") if claim == "C7" else (2, "peaks over speed")
+    return Evidence(claim, part, scale, pressure, None, value, error, 0.0, "above")
 
 
 EVIDENCE = {

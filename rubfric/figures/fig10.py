@@ -1,0 +1,101 @@
+"""Figure 10: four ways from the scales of a road to its friction, over speed, at a light and a heavy load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from rubfric.errors import InvalidInput
+from rubfric.figures import panels, style
+from rubfric.figures.bands import band_handle, draw_band, upper
+from rubfric.figures.scaling import scale_friction, scale_speeds
+from rubfric.figures.totals import WAYS, Totals, totals
+from rubfric.results.selection import written
+
+Array = NDArray[np.float64]
+
+_HEIGHT = 2.5
+_ESTIMATES = ("sum", "cascade", "persson")
+_DIRECT: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
+_REFUSED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 5.0, "clip_on": False}
+_NOT = "refused: no solution found"
+
+
+@style.applied()
+def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
+    """Draw friction against speed by each way to the whole road, a panel per pressure.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As from ``rubfric.results.tables.total_table``.
+    pressures : sequence of float
+        Nominal, MPa.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The paper's sum over the scales, the cascade and Persson's theory as lines; all scales at once with its
+        estimated error as a band (the errors of the models, which cover what they neglect, are in the table). Crosses
+        at the bottom are speeds at which the whole road was refused.
+
+    Raises
+    ------
+    InvalidInput
+        For a table without a column, a pressure that it lacks, or pressures without any friction.
+    """
+    chosen = list(dict.fromkeys(pressures))
+    found = [totals(table, pressure) for pressure in chosen]
+    shown = np.concatenate([values for one in found for values in one.friction.values()])
+    if not np.isfinite(shown).any():
+        raise InvalidInput("the table of totals has no friction at these pressures, so there is nothing to draw")
+    figure, axes = panels.arrange(len(found), _HEIGHT)
+    for panel, one in zip(axes, found, strict=True):
+        for way, look in zip(_ESTIMATES, _looks(), strict=True):
+            panel.plot(one.speeds, one.friction[way], label=WAYS[way], **look)
+        _draw_direct(panel, one)
+    scale_speeds(axes[0], np.concatenate([one.speeds for one in found]))
+    direct = np.concatenate([one.friction["direct"] for one in found])
+    error = np.concatenate([one.errors["direct"] for one in found])
+    scale_friction(axes[0], np.concatenate([shown, upper(direct, error)]))
+    panels.entitle(axes, [f"{written(pressure)} MPa" for pressure in chosen])
+    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
+    panels.legend_above(figure, _handles(axes, found, direct, error), None, 3 if len(axes) > 1 else 2)
+    return figure
+
+
+def _looks() -> list[dict[str, Any]]:
+    """Return how the estimates are drawn: colours without an order, and dashes, since they may lie on each other."""
+    looks = style.kinds(len(_ESTIMATES))
+    return [
+        look | {"linestyle": dash, "linewidth": 1.0, "markersize": 3.5, "clip_on": False}
+        for look, dash in zip(looks, style.dashes(4)[1:], strict=True)
+    ]
+
+
+def _draw_direct(panel: Axes, found: Totals) -> None:
+    direct = found.friction["direct"]
+    if np.isfinite(direct).any():
+        draw_band(panel, found.speeds, direct, found.errors["direct"], "black")
+        panel.plot(found.speeds, direct, label=WAYS["direct"], **_DIRECT)
+    if found.refused.any():
+        place = found.speeds[found.refused]
+        across = panel.get_xaxis_transform()
+        panel.plot(place, np.full(place.size, 0.03), transform=across, label=_NOT, gid="refused", **_REFUSED)
+
+
+def _handles(axes: Sequence[Axes], found: Sequence[Totals], direct: Array, error: Array) -> list[Artist]:
+    """Return the legend's entries: each line once, direct first, and its band."""
+    lines = {str(line.get_label()): line for panel in axes for line in panel.get_lines()}
+    handles: list[Artist] = [lines.pop(words) for words in (WAYS["direct"], _NOT) if words in lines]
+    if np.isfinite(direct).any():
+        handles[0].set_label(f"{WAYS['direct']}:\n{found[0].road}")
+        handles.insert(1, band_handle(direct, error, "black"))
+    return [*handles, *lines.values()]

@@ -1,0 +1,168 @@
+"""The friction of the whole road at one pressure, out of the table of totals, and how its ways are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+
+from rubfric.errors import InvalidInput
+from rubfric.figures.bands import draw_band
+from rubfric.figures.columns import check_columns
+from rubfric.results.selection import written
+
+Array = NDArray[np.float64]
+
+# The ways to a total in words, as legends have them.
+WAYS = {
+    "direct": "all scales at once",
+    "sum": "sum of the scales",
+    "cascade": "cascade from scale to scale",
+    "persson": "Persson's theory",
+}
+# Columns that are text, even where it looks like a number.
+WORDS = ("way", "note")
+_AXES = ("velocity_mm_per_s", "pressure_MPa")
+_TOTAL = ("friction_total", "friction_total_error", "friction_road_error")
+_HALO, _ASIDE = "white", "black"
+
+
+@dataclass(frozen=True)
+class Totals:
+    """Totals at one pressure, over speed; NaN where they are not known.
+
+    Attributes
+    ----------
+    speeds : numpy.ndarray, shape (speeds,)
+        mm/s, ascending.
+    total, error : numpy.ndarray, shape (speeds,)
+        The friction coefficient that counts, and its whole absolute error.
+    ways : numpy.ndarray of str, shape (speeds,)
+        How each total was obtained.
+    friction, errors : dict of numpy.ndarray
+        The friction coefficient by each way, and its whole absolute error.
+    drawn : bool
+        Whether totals are means over roads with random phases, not those of one road.
+    """
+
+    speeds: Array
+    total: Array
+    error: Array
+    ways: NDArray[np.str_]
+    friction: dict[str, Array]
+    errors: dict[str, Array]
+    drawn: bool
+
+    @property
+    def way(self) -> str:
+        """The way of most totals; ``direct`` where there is any."""
+        known = [str(way) for way in self.ways[np.isfinite(self.total)]]
+        return "direct" if "direct" in known or not known else max(sorted(set(known)), key=known.count)
+
+    @property
+    def other(self) -> NDArray[np.bool_]:
+        """Where the total was obtained in another way, since this one was refused or did not pay."""
+        return (self.ways != self.way) & np.isfinite(self.total)
+
+    @property
+    def main(self) -> Array:
+        """The totals that were obtained in the way of most; NaN at the others."""
+        return np.where(self.other, np.nan, self.total)
+
+    @property
+    def refused(self) -> NDArray[np.bool_]:
+        """Where all scales at once have no friction, though they have elsewhere at this pressure."""
+        missing = np.isnan(self.friction["direct"])
+        return missing & (not missing.all())
+
+    @property
+    def road(self) -> str:
+        """Of which road the totals are, in words."""
+        return "mean of random phases" if self.drawn else "one road, these phases"
+
+
+def totals(table: pd.DataFrame, pressure: float) -> Totals:
+    """Return the totals at one pressure.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As from ``rubfric.results.tables.total_table``.
+    pressure : float
+        Nominal, MPa.
+
+    Raises
+    ------
+    InvalidInput
+        For a table without a column or without the pressure.
+    """
+    friction = {way: f"friction_{way}" for way in WAYS}
+    errors = {way: f"friction_{way}_error" for way in WAYS}
+    check_columns(table, "table of totals", ("way",), (*_AXES, *_TOTAL, *errors.values()), list(friction.values()))
+    rows = table[np.isclose(table["pressure_MPa"], pressure, rtol=1e-5)].sort_values("velocity_mm_per_s")
+    if rows.empty:
+        listed = ", ".join(written(one) for one in sorted(set(table["pressure_MPa"])))
+        raise InvalidInput(f"the table of totals has no pressure {written(pressure)} MPa, but {listed} MPa")
+
+    def column(name: str) -> Array:
+        return rows[name].to_numpy(dtype=np.float64)
+
+    return Totals(
+        speeds=column("velocity_mm_per_s"),
+        total=column("friction_total"),
+        error=column("friction_total_error"),
+        ways=rows["way"].to_numpy(dtype=np.str_),
+        friction={way: column(name) for way, name in friction.items()},
+        errors={way: column(name) for way, name in errors.items()},
+        drawn=bool(rows["friction_road_error"].notna().any()),
+    )
+
+
+def draw_total(panel: Axes, found: Totals) -> Line2D:
+    """Draw the total that counts with the band of its error; open, with bars, where it was obtained in another way.
+
+    Parameters
+    ----------
+    panel : matplotlib.axes.Axes
+    found : Totals
+
+    Returns
+    -------
+    matplotlib.lines.Line2D
+        The line, for the legend.
+    """
+    other = found.other
+    for colour in (_HALO, _ASIDE):
+        draw_band(panel, found.speeds, found.main, found.error, colour, zorder=2.5)
+    halo = [withStroke(linewidth=3.2, foreground=_HALO)]
+    look: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
+    (line,) = panel.plot(
+        found.speeds, found.main, label=f"total: {WAYS[found.way]},\n{found.road}", path_effects=halo, **look
+    )
+    if other.any():
+        place, value, error = (values[other] for values in (found.speeds, found.total, found.error))
+        panel.errorbar(
+            place,
+            value,
+            yerr=np.nan_to_num(error, nan=0.0),
+            **look | {"linestyle": "none", "markerfacecolor": "white", "zorder": 2.9},
+            elinewidth=0.8,
+            capsize=2.0,
+        )
+    return line
+
+
+def other_handles(found: Sequence[Totals]) -> list[Line2D]:
+    """Return the legend's entry for totals obtained in another way, or none."""
+    ways = sorted({WAYS.get(str(way), str(way)) for one in found for way in one.ways[one.other]})
+    if not ways:
+        return []
+    words = f"refused there: {', '.join(ways)},\nwith all of its error"
+    return [Line2D([], [], color="black", linestyle="none", marker="o", markerfacecolor="white", label=words)]

@@ -1,0 +1,92 @@
+"use strict";
+// The whole road: what its friction and error are made of, a magnified spot, and the scale of energies below a picture.
+
+const WAY_NAMES = { sum: "sum of the scales", cascade: "cascade from scale to scale", persson: "Persson’s theory", direct: "all scales at once" };
+
+/** Of which road a total is. */
+function roadWords(data) {
+  const draws = data.whole?.draws ?? 0;
+  return draws ? `mean over ${draws} roads with random phases` : "on one road, with these phases";
+}
+
+/** How the total was obtained and what its error covers. */
+function coversTotal(data, { pressure, speed }) {
+  const { way, note, parts } = data.totals;
+  const taken = way[pressure][speed];
+  if (!taken) return "";
+  const of = (name) => parts[name][pressure][speed];
+  const share = (name, words) => (of(name) ? [`${words} (${rounded(of(name), 2)})`] : []);
+  const covered = [
+    ...share("numerical", "mesh and solver"), ...share("coupling", "what it may miss of the coupling of the scales"),
+    ...share("road", "so few random roads"),
+  ];
+  const about = taken === "direct" ? `${WAY_NAMES.direct} ${roadWords(data)}` : WAY_NAMES[taken];
+  const said = taken === "direct" ? "" : ` ${sentence(note[pressure][speed] ?? "")}`;
+  return `${sentence(about)} ± covers ${covered.join(" and ") || "nothing"}.${said.trim() === "." ? "" : said}`;
+}
+
+/** What the error of a scene covers, or why there is no result. */
+function coversScene(data, { place, pressure, speed }, scene) {
+  const reason = place === "whole" && data.refusals[pressure][speed];
+  if (!scene) return reason ? sentence(reason) : "";
+  return `${place === "whole" ? sentence(`all scales at once ${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver.`;
+}
+
+/** The sum of the scales at the chosen pressure, for comparison with the total. */
+function comparison(data, chosen) {
+  const { friction, error } = data.totals.ways.sum;
+  const [values, errors] = [friction[chosen.pressure], error[chosen.pressure]];
+  return {
+    x: data.speeds, y: values, name: WAY_NAMES.sum, mode: "lines", connectgaps: false, line: { color: "#5c6370", width: 1.6, dash: "6px,4px" },
+    text: values.map((value, speed) => `${WAY_NAMES.sum}<br>${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[chosen.pressure])}<br>μ ${measured(value, errors[speed])}`),
+    hovertemplate: "%{text}<extra></extra>",
+  };
+}
+
+/** Crosses on the totals that were obtained in another way, since the whole road was refused. */
+function crosses(data) {
+  const found = { x: [], y: [] };
+  data.totals.way.forEach((row, pressure) => row.forEach((way, speed) => {
+    if (!way || way === "direct" || !data.refusals?.[pressure][speed]) return;
+    found.x.push(data.speeds[speed]);
+    found.y.push(data.curves.total.friction[pressure][speed]);
+  }));
+  return { ...found, mode: "markers", hoverinfo: "skip", marker: { symbol: "x-thin", size: 13, line: { width: 1.8, color: "#1d2129" } } };
+}
+
+/** The part of the whole road that is magnified, mm: three quarters of the coarsest wavelength. */
+function spotFrame(road, place) {
+  const wide = 0.75 * road.wavelength;
+  const left = Math.min(road.period - wide, Math.max(0, (place ?? road.crest) - 0.5 * wide));
+  const heights = roadLine(road, { left, right: left + wide }, 300).y;
+  return { left, right: left + wide, bottom: Math.min(...heights) - 0.08 * wide, top: Math.max(...heights) + 0.28 * wide };
+}
+
+/** The frame of the spot in the picture of the whole road. */
+function spotShape({ left, right, bottom, top }, whole) {
+  const line = { color: "#1d2129", width: 1.2 };
+  return { type: "rect", x0: left, x1: right, y0: Math.max(bottom, whole.bottom), y1: Math.min(top, whole.top), line };
+}
+
+/** Numbers within a range of decimal logarithms: every power of ten, every other, or also twice and five times those. */
+function decades([low, high]) {
+  const fine = high - low < 2.2 ? [1, 2, 5] : [1], step = high - low > 4.5 ? 2 : 1;
+  const ticks = [];
+  for (let power = Math.floor(low); power <= Math.ceil(high); power += step) {
+    for (const factor of fine) {
+      const value = factor * 10 ** power;
+      if (Math.log10(value) >= low - 1e-9 && Math.log10(value) <= high + 1e-9) ticks.push(value);
+    }
+  }
+  return ticks;
+}
+
+/** The scale of energies: its colours, and numbers below them. */
+function energyScale([low, high], stops) {
+  const bar = element("div", { class: "bar", style: `background: linear-gradient(to right, ${stops.join(", ")})` });
+  const ticks = decades([low, high]).map((value) => {
+    const place = (100 * (Math.log10(value) - low)) / (high - low);
+    return element("span", { style: `left: ${place.toFixed(2)}%` }, plain(value));
+  });
+  return [element("div", { class: "quiet" }, "strain-energy density (MPa)"), bar, element("div", { class: "ticks" }, ...ticks)];
+}

@@ -1,0 +1,48 @@
+"""Friction of a road whose phases are not known: the mean over roads with random ones."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from rubfric.results.campaign import REFUSALS, refusals
+from rubfric.results.scalars import attributes
+
+ROAD_ERROR = "friction_road_error"
+DRAWS = "draws"
+_FRICTION = "friction_coefficient"
+
+
+def over_draws(collected: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Return the means of all scalars over random roads, with the error that so few roads leave.
+
+    Parameters
+    ----------
+    collected : sequence of xarray.Dataset
+        Of each road, as from ``rubfric.results.campaign.collect``, over the same axes.
+
+    Returns
+    -------
+    xarray.Dataset
+        The means over the roads that were solved; ``draws``, their number; and ``friction_road_error``, the standard
+        error of the mean friction: the standard deviation over the roads over the root of their number, dimensionless,
+        and NaN for fewer than two roads. The mean of the roads' numerical errors bounds that of the mean. Why a
+        road was refused is said of the first at each point.
+    """
+    roads = xr.concat(collected, "draw", combine_attrs="override", data_vars="all", coords="minimal", join="exact")
+    friction = roads[_FRICTION]
+    number = friction.count("draw")
+    found = roads.mean("draw", keep_attrs=True)
+    error = friction.std("draw", ddof=1) / np.sqrt(number)
+    found[ROAD_ERROR] = error.where(number > 1).assign_attrs(
+        attributes("1", "standard error of the mean friction coefficient over random phases of the road, absolute")
+    )
+    found[DRAWS] = number.assign_attrs(attributes("1", "roads of random phases that were solved"))
+    reasons = {point: reason for one in reversed(collected) for point, reason in refusals(one).items()}
+    found.attrs = {name: value for name, value in collected[0].attrs.items() if name != REFUSALS}
+    if reasons:
+        found.attrs[REFUSALS] = json.dumps(sorted(reasons.items()))
+    return found

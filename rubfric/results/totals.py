@@ -1,0 +1,198 @@
+"""The friction of the whole road at every speed and pressure: by which way, and what its error is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from rubfric.config.multiscale import DIRECT
+from rubfric.errors import NotConverged
+from rubfric.mechanics.theory.coupling import Coupling, estimate
+from rubfric.results.campaign import refusals
+from rubfric.results.draws import DRAWS, ROAD_ERROR
+from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
+from rubfric.results.selection import check_variables
+from rubfric.road.waves import WaveRoad
+from rubfric.rubber.material import Material
+
+# What the note says of a direct total without random phases.
+ONE_ROAD = "one road with these phases"
+# What a scene of the whole road says that was not needed, before the way that will do.
+NOT_NEEDED = "not needed: the accuracy is met by "
+# The ways that are models of the coupling; the direct total is what they are judged by.
+MODELS = tuple(way for way in WAYS if way != "direct")
+_PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error")
+
+
+@dataclass(frozen=True)
+class WholeRoad:
+    """What the friction of the whole road depends on besides the results of scenes.
+
+    Attributes
+    ----------
+    way : {"sum", "cascade", "direct", "persson", "auto"}
+        By which it is asked for.
+    accuracy : float
+        Relative; what ``auto`` asks of the coupling.
+    material : Material
+    plane : {"stress", "strain"}
+    kinematics : {"small", "finite", "auto"}
+    aspect : float
+        Height over width of the blocks on the scales.
+    height : float
+        Of the block on the whole road, mm.
+    roads : tuple of WaveRoad
+        The road, or those with random phases.
+    """
+
+    way: str
+    accuracy: float
+    material: Material
+    plane: str
+    kinematics: str
+    aspect: float
+    height: float
+    roads: tuple[WaveRoad, ...]
+
+    @classmethod
+    def from_parameters(cls, parameters: Mapping[str, Any]) -> WholeRoad:
+        """Return it from plain values, as ``Campaign.whole_parameters`` gives them."""
+        roads = tuple(WaveRoad(**{name: tuple(of) for name, of in road.items()}) for road in parameters["roads"])
+        return cls(**dict(parameters) | {"material": Material(**parameters["material"]), "roads": roads})
+
+    def couplings(self, velocity: float, pressure: float) -> list[Coupling]:
+        """Return what the scales of each road do to one another at a speed (mm/s) and a pressure (MPa)."""
+        about = (velocity, pressure, self.height, self.plane, self.kinematics)
+        return [estimate(self.material, road, *about) for road in self.roads]
+
+    def cheapest(self, velocity: float, pressure: float) -> str:
+        """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa)."""
+        try:
+            ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+        except NotConverged:
+            return "direct"
+        return ways.pop() if len(ways) == 1 else "direct"
+
+
+class _Total(NamedTuple):
+    """A total by one way, and the parts of its absolute error; NaN where they are not known."""
+
+    friction: float = np.nan
+    numerical: float = np.nan
+    coupling: float = 0.0
+    road: float = np.nan
+    draws: int = 0
+
+    @property
+    def error(self) -> float:
+        """The whole error; random phases count where they were drawn."""
+        return self.numerical + self.coupling + (0.0 if np.isnan(self.road) else self.road)
+
+
+def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad) -> pd.DataFrame:
+    """Return the friction of every scale and of the whole road, by all ways, and what its error is made of.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.results.campaign.collect``.
+    whole : xarray.Dataset or None
+        The same of the whole road, or the mean over draws of it; None where it was not simulated.
+    road : WholeRoad
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each pressure (MPa) and speed (mm/s) at which all scales were run. ``friction_total`` is that by
+        ``way``; its absolute error is the sum of ``friction_numerical_error``, ``friction_coupling_error``, which
+        bounds what a model of the coupling of scales changes, and, where phases were drawn,
+        ``friction_road_error``, the standard error of the mean over them. The other ways have their whole errors.
+
+    Raises
+    ------
+    BrokenResult
+        If the campaign lacks a variable of the table.
+    """
+    check_variables(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
+    at = campaign.sel(aspect=road.aspect)
+    total, error = total_friction(at["friction_coefficient"]), total_error(at["friction_coefficient_error"])
+    reasons = {point[1:3]: reason for point, reason in (refusals(whole) if whole is not None else {}).items()}
+    scales, rows = [f"friction_scale_{scale}" for scale in at["scale"].values], []
+    for pressure, velocity in product(at["pressure"].values.tolist(), at["velocity"].values.tolist()):
+        place = {"velocity": velocity, "pressure": pressure}
+        single = _Total(float(total.sel(place)), float(error.sel(place)))
+        if np.isnan(single.friction):
+            continue
+        found = _totals(road, velocity, pressure, single)
+        if whole is not None:
+            found["direct"] = _direct(whole.sel(place))
+        way, refused, note = _chosen(road, found, reasons.get((velocity, pressure), ""))
+        counts, one = found[way], at.sel(place)
+        rows.append(
+            dict(zip(AXES, (velocity, pressure), strict=True))
+            | dict(zip(scales, one["friction_coefficient"].values.tolist(), strict=True))
+            | {f"friction_{name}": each.friction for name, each in found.items()}
+            | {f"friction_{name}_error": each.error for name, each in found.items()}
+            | dict(zip(TOTAL, (counts.friction, counts.error), strict=True))
+            | dict(zip(_PARTS, (counts.numerical, counts.coupling, counts.road), strict=True))
+            | {"nominal_compression": float(one["nominal_compression"].max()), "refused": refused}
+            | dict(zip(WORDS, (way, note), strict=True))
+        )
+    ways = [f"friction_{way}" for way in WAYS]
+    last = ["nominal_compression", "refused", *(f"{way}_error" for way in ways), *WORDS]
+    return pd.DataFrame(rows, columns=[*AXES, *scales, *ways, *TOTAL, *_PARTS, *last])
+
+
+def _totals(road: WholeRoad, velocity: float, pressure: float, single: _Total) -> dict[str, _Total]:
+    """Return the totals by every way at a speed (mm/s) and pressure (MPa), given the sum with its numerical error."""
+    found = dict.fromkeys(WAYS, _Total()) | {"sum": single._replace(coupling=np.nan)}
+    try:
+        couplings = road.couplings(velocity, pressure)
+    except NotConverged:
+        return found
+    for way in MODELS:
+        totals = [one.total(way, single.friction) for one in couplings]
+        friction = float(np.mean(totals))
+        share = friction / single.friction if single.friction else 1.0
+        bound = max(
+            one.error(way) * abs(each) + abs(each - friction) for one, each in zip(couplings, totals, strict=True)
+        )
+        found[way] = _Total(friction, abs(single.numerical * share), bound)
+    return found
+
+
+def _direct(whole: xr.Dataset) -> _Total:
+    """Return the direct total at one point of the collection of the whole road."""
+    at = whole.isel(scale=0, aspect=0)
+    total = _Total(float(at["friction_coefficient"]), float(at["friction_coefficient_error"]))
+    return total._replace(road=float(at[ROAD_ERROR]), draws=int(at[DRAWS])) if DRAWS in at else total
+
+
+def _chosen(road: WholeRoad, found: Mapping[str, _Total], reason: str) -> tuple[str, int, str]:
+    """Return the way that counts at one point, how many scenes of the whole road were refused there, and what to know.
+
+    Parameters
+    ----------
+    road : WholeRoad
+    found : mapping of str to _Total
+        By every way.
+    reason : str
+        Why the whole road, or a draw of it, was refused or not needed; empty where it was not.
+    """
+    direct = found["direct"]
+    if road.way not in DIRECT:
+        return road.way, 0, ""
+    if reason.startswith(NOT_NEEDED):
+        return reason.removeprefix(NOT_NEEDED), 0, "the cheapest way that is accurate enough"
+    if np.isnan(direct.friction):
+        missing = len(road.roads) if reason else 0
+        return "sum", missing, f"the sum stands in for the whole road, which was refused: {reason or 'it was not run'}"
+    refused = len(road.roads) - direct.draws if direct.draws else 0
+    about = f"mean of {direct.draws} roads with random phases" if direct.draws else ONE_ROAD
+    return "direct", refused, about + (f"; {refused} more refused: {reason}" if refused else "")

@@ -1,0 +1,74 @@
+"""The direction of a Newton step: the linearised contact solved for its contact nodes, whatever they are at first."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
+
+from rubfric.arrays import Flags
+from rubfric.mechanics.finite.block import Fields, Stiffness
+from rubfric.mechanics.finite.circulant import Circulant
+from rubfric.mechanics.finite.contact import Correction, Linearised, SlidingContact
+from rubfric.mechanics.finite.direction import Direction, newton_direction
+
+PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
+PRESSURE, FORCING = 0.5, 1e-9
+
+
+class Point:
+    """Fields about which is linearised, and what belongs to them."""
+
+    def __init__(self, plane: str) -> None:
+        self.problem: SlidingContact = sliding(coarse(plane))
+        finite = self.problem.finite
+        fields: Fields = flat(finite, PRESSURE)
+        self.stiffness: Stiffness = finite.stiffness(fields, finite.stressed(fields))
+        self.circulant = Circulant(finite, self.stiffness, PRESSURE)
+        self.correction: Correction = self.problem.correct(self.circulant, fields, load(PRESSURE), everywhere(finite))
+
+    def direction(self, touching: Flags) -> Direction:
+        known = self.problem, self.circulant, self.stiffness, self.correction, load(PRESSURE)
+        return newton_direction(*known, touching, FORCING)
+
+    def linear(self, touching: Flags) -> Linearised:
+        return Linearised(self.problem, self.circulant, self.stiffness, self.correction, load(PRESSURE), touching)
+
+
+@PLANES
+def test_direction_solves_the_linearised_contact(plane: str) -> None:
+    point = Point(plane)
+    found = point.direction(point.correction.contact.touching)
+    linear = point.linear(found.touching)
+    (rest, held), (left, change) = linear.rest(), linear.change(found.step)
+    size = point.problem.size
+    assert size(rest.moved(left, -1.0)) <= 10.0 * FORCING * size(rest)
+    pressure, gap = held + change, point.correction.above + linear.along_normals(found.step)
+    assert 0 < np.count_nonzero(found.touching) < len(found.touching)
+    assert pressure[found.touching].min() > 0.0
+    assert gap[~found.touching].min() > 0.0
+    np.testing.assert_allclose(gap[found.touching], 0.0, atol=1e-6 * AMPLITUDE)
+    np.testing.assert_allclose(pressure[~found.touching], 0.0, atol=1e-12)
+    assert pressure.mean() == pytest.approx(PRESSURE, rel=1e-9)
+
+
+@PLANES
+def test_first_guess_of_the_contact_nodes_does_not_matter(plane: str) -> None:
+    point = Point(plane)
+    expected = point.direction(point.correction.contact.touching)
+    columns = np.arange(len(expected.touching))
+    for guess in (columns >= 0, columns == 4, ~expected.touching):
+        found = point.direction(guess)
+        np.testing.assert_array_equal(found.touching, expected.touching)
+        distance = found.step.displacement - expected.step.displacement
+        assert np.abs(distance).max() < 1e-6 * AMPLITUDE
+        assert found.passes > 1
+        assert found.krylov >= found.most + found.passes - 1
+
+
+@PLANES
+def test_solved_guess_takes_one_pass(plane: str) -> None:
+    point = Point(plane)
+    found = point.direction(point.direction(everywhere(point.problem.finite)).touching)
+    assert found.passes == 1
+    assert found.krylov == found.most

@@ -1,0 +1,86 @@
+# The whole road, all scales at once: one job per scene, as for a scale, except that a scene that is refused leaves a file
+# that says why, and the campaign goes on. With random phases every draw has a folder of its own.
+WHOLE = CAMPAIGN.whole_scenes()
+
+
+def whole_file(name):
+    """Return where the result of a scene of the whole road belongs."""
+    return f"{RESULTS}/whole/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def whole_files(wildcards):
+    """Return the results of all scenes of the whole road; a function, since only some runs need to know."""
+    return [whole_file(name) for name in WHOLE]
+
+
+# What decides whether a scene of the whole road is needed.
+CHOOSING = ["rubfric.results.totals"] if CAMPAIGN.multiscale.way == "auto" else []
+# The collection of them; none where the total does without.
+WHOLE_COLLECTION = [f"{RESULTS}/whole.nc"] if WHOLE else []
+
+
+rule whole_scene:
+    input:
+        package_files("rubfric.simulation", *CHOOSING),
+        script="workflow/scripts/simulate_whole.py",
+    output:
+        whole_file("{whole}"),
+    log:
+        f"{RESULTS}/logs/whole/{RUBBER}/{ROAD}/{{whole}}.log",
+    priority: 5
+    params:
+        parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
+        road=CAMPAIGN.whole_parameters() if CHOOSING else {},
+        version=rubfric.__version__,
+    message:
+        "{wildcards.whole}"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            parameters=params.parameters,
+            road=params.road,
+        )
+
+
+rule whole_collection:
+    input:
+        package_files("rubfric.results.draws"),
+        script="workflow/scripts/collect_whole.py",
+        scenes=whole_files,
+    output:
+        report(
+            f"{RESULTS}/whole.nc",
+            caption="../report/campaign.rst",
+            category=REPORT.fields,
+            labels={"data": "scalars of every scene of the whole road (netCDF)"},
+        ),
+        mark=f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}",
+    log:
+        f"{RESULTS}/logs/whole.log",
+    params:
+        scenes={
+            draw: {
+                whole_file(name): scene.digest
+                for name, scene in WHOLE.items()
+                if name.startswith(f"{draw}all_")
+            }
+            for draw in CAMPAIGN.whole_roads
+        },
+    message:
+        "Collecting the whole road"
+    run:
+        jobs.run(
+            input.script,
+            log[0],
+            output=output[0],
+            scenes=params.scenes,
+            mark=output.mark,
+        )
+
+
+rule whole:
+    input:
+        whole_files,
+        WHOLE_COLLECTION,

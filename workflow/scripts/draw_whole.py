@@ -1,0 +1,25 @@
+"""Draw the block on the whole road, from the results of some scenes, refused ones among them."""
+
+from rubfric.errors import BrokenResult
+from rubfric.figures import fig11
+from rubfric.figures.style import save
+from rubfric.results.dataset import load
+from rubfric.results.provenance import OTHER_SCENE
+
+
+def main(results: list[str], digests: list[str], outputs: list[str]) -> None:
+    """Draw figure 11 and save it under every path of ``outputs``.
+
+    Parameters
+    ----------
+    results, digests : list of str
+        Paths of the results or refusals (netCDF), and the digests that they must have.
+    outputs : list of str
+        Paths; their endings choose the formats.
+    """
+    read = []
+    for path, digest in zip(results, digests, strict=True):
+        read.append(load(path))
+        if read[-1].attrs.get("scene_digest") != digest:
+            raise BrokenResult(f"{path} {OTHER_SCENE}; delete it and run again")
+    save(fig11.draw(read), *outputs)

@@ -1,0 +1,39 @@
+"""Simulate one scene of the whole road and write its result, or why it was refused."""
+
+from typing import Any
+
+from rubfric.errors import InvalidInput, NotConverged
+from rubfric.results.dataset import write
+from rubfric.results.provenance import refusal
+from rubfric.results.summary import summary
+from rubfric.results.totals import NOT_NEEDED, WholeRoad
+from rubfric.scene.scene import Scene
+from rubfric.simulation import simulate
+
+
+def main(output: str, parameters: dict[str, Any], road: dict[str, Any]) -> None:
+    """Simulate the scene and write its result; a scene that is refused, or not needed, leaves a file that says why.
+
+    Parameters
+    ----------
+    output : str
+        Path of the result (netCDF).
+    parameters : dict
+        Those of the ``Scene``.
+    road : dict
+        Those of ``WholeRoad``, where a cheaper way may be accurate enough; else nothing.
+    """
+    scene = Scene.from_parameters(parameters)
+    way = WholeRoad.from_parameters(road).cheapest(scene.velocity, scene.pressure) if road else "direct"
+    if way != "direct":
+        write(refusal(scene, NOT_NEEDED + way), output)
+        print(NOT_NEEDED + way)
+        return
+    try:
+        result = simulate(scene)
+    except (InvalidInput, NotConverged) as reason:
+        write(refusal(scene, reason), output)
+        print(f"Refused: {reason}")
+    else:
+        write(result, output)
+        print(summary(result))
