@@ -23,7 +23,7 @@ from rubfric.rubber.material import Material
 # What may be asked for in place of the direct total, the cheapest first.
 WAYS = ("sum", "cascade", "persson")
 # M in small strain; in finite strain, and what it grows by with the share of its height that a flat block loses.
-_SMALL, _FINITE, _PRESSED = 0.04, 0.1, 0.4
+_SMALL, _FINITE, _PRESSED = 0.04, 0.13, 0.4
 # Friction coefficients below this are those of rubber that dissipates nothing.
 _NONE = 1e-9
 
