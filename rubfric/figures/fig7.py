@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
@@ -79,9 +81,15 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     axes.set_xlabel("sliding speed (mm/s)")
     axes.set_ylabel("friction coefficient (-)")
     marks = [*peak_handles(axes), *other_handles([found])]
-    handles = [line, band_handle(found.main, found.error, "black"), *marks, edge, *patches[::-1]]
+    lines = [line, band_handle(found.main, found.error, "black"), *marks, edge]
+    handles = [*_padded(lines, len(patches)), *_padded(patches[::-1], len(lines))]
     panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 2)
     return figure
+
+
+def _padded(handles: Sequence[Any], count: int) -> list[Any]:
+    """Return entries of a legend filled up with empty ones, so that they make a column."""
+    return [*handles, *(Line2D([], [], linestyle="none", label=" ") for _ in range(count - len(handles)))]
 
 
 def _stack(axes: Axes, speeds: NDArray[np.float64], shares: xr.DataArray) -> list[Patch]:
