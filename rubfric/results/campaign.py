@@ -14,8 +14,9 @@ import xarray as xr
 from rubfric import __version__
 from rubfric.errors import BrokenResult
 from rubfric.results.dataset import load
-from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER, REFUSAL
+from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
 from rubfric.results.scalars import SCALARS, attributes
+from rubfric.results.selection import REFUSAL, REFUSALS
 
 AXES: dict[str, tuple[str, str]] = {
     "scale": ("1", "scale of the road, 1 being the coarsest; 0 is all at once"),
@@ -26,9 +27,6 @@ AXES: dict[str, tuple[str, str]] = {
 # Of all scales at once, which are scale 0, the smallest of each.
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
 _WARNINGS = "warnings"
-
-# The attribute of a collection that holds the coordinates of refused scenes, and why they were refused.
-REFUSALS = "refusals"
 
 
 class _Found(NamedTuple):
@@ -82,12 +80,6 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     if not first:
         raise BrokenResult("there are no results to collect")
     return _assemble(found, road)
-
-
-def refusals(collected: xr.Dataset) -> dict[tuple[float, ...], str]:
-    """Return why scenes of a collection were refused, by scale, velocity (mm/s), pressure (MPa) and aspect."""
-    listed = json.loads(collected.attrs.get(REFUSALS, "[]"))
-    return {tuple(float(number) for number in point): reason for point, reason in listed}
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:

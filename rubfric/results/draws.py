@@ -8,11 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from rubfric.results.campaign import REFUSALS, refusals
 from rubfric.results.scalars import attributes
+from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, refusals
 
-ROAD_ERROR = "friction_road_error"
-DRAWS = "draws"
 _FRICTION = "friction_coefficient"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,13 @@ from rubfric.errors import BrokenResult, InvalidInput
 
 _NAMES = {"scale": "scale", "velocity": "speed", "pressure": "pressure", "aspect": "height-to-width ratio"}
 _UNITS = {"velocity": " mm/s", "pressure": " MPa"}
+# The attribute that says why a scene has no result, and what one says there that was not needed, before the way that
+# will do.
+REFUSAL, NOT_NEEDED = "refusal", "not needed: the accuracy is met by "
+# The attribute of a collection that holds the coordinates of refused scenes, and why they were refused.
+REFUSALS = "refusals"
+# Of a mean over roads with random phases: how many were solved, and the standard error of the mean friction over them.
+DRAWS, ROAD_ERROR = "draws", "friction_road_error"
 # With fewer points no peak can lie between others.
 _FEWEST = 3
 
@@ -29,6 +37,12 @@ def check_variables(campaign: xr.Dataset, *names: str) -> None:
     lacking = [name for name in names if name not in campaign]
     if lacking:
         raise BrokenResult(f"the campaign lacks {', '.join(lacking)}: gather the results of its scenes again")
+
+
+def refusals(collected: xr.Dataset) -> dict[tuple[float, ...], str]:
+    """Return why scenes of a collection were refused, by scale, velocity (mm/s), pressure (MPa) and aspect."""
+    listed = json.loads(collected.attrs.get(REFUSALS, "[]"))
+    return {tuple(float(number) for number in point): reason for point, reason in listed}
 
 
 def pick(campaign: xr.Dataset, variable: str, **chosen: float) -> xr.DataArray:

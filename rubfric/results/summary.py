@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 _WIDTH = 34
+_COVERED = "mesh, solver, kinematics; not other phases of the waves, the rubber's data or its finite-strain law"
 
 
 def summary(result: xr.Dataset) -> str:
@@ -21,6 +22,7 @@ def summary(result: xr.Dataset) -> str:
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
         _line("friction coefficient", f"{friction:.5g} +- {float(result['friction_coefficient_error']):.1g}"),
+        *([_line("  the error covers", _COVERED)] if "phase" in attributes else []),
         _line("  from viscous dissipation", f"{float(result['friction_coefficient_dissipation']):.5g}"),
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
         _line("  largest difference", f"{float(result['energy_closure']):.2g} (relative)"),

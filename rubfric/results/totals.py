@@ -14,17 +14,13 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
-from rubfric.results.campaign import refusals
-from rubfric.results.draws import DRAWS, ROAD_ERROR
 from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import check_variables
+from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, check_variables, refusals
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # What the note says of a direct total without random phases.
 ONE_ROAD = "one road with these phases"
-# What a scene of the whole road says that was not needed, before the way that will do.
-NOT_NEEDED = "not needed: the accuracy is met by "
 # The ways that are models of the coupling; the direct total is what they are judged by.
 MODELS = tuple(way for way in WAYS if way != "direct")
 _PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error")
@@ -145,8 +141,8 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
             | dict(zip(WORDS, (way, note), strict=True))
         )
     ways = [f"friction_{way}" for way in WAYS]
-    last = ["nominal_compression", "refused", *(f"{way}_error" for way in ways), *WORDS]
-    return pd.DataFrame(rows, columns=[*AXES, *scales, *ways, *TOTAL, *_PARTS, *last])
+    others = [*ways, *(f"{way}_error" for way in ways), *scales, "nominal_compression", "refused"]
+    return pd.DataFrame(rows, columns=[*AXES, *TOTAL, WORDS[0], *_PARTS, *others, WORDS[1]])
 
 
 def _totals(road: WholeRoad, velocity: float, pressure: float, single: _Total) -> dict[str, _Total]:

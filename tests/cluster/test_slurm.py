@@ -19,7 +19,7 @@ from project_copy import Project
 from rubfric.results.dataset import load
 
 PATIENCE = 300.0  # s
-SCENES, BATCHES, READINGS, MARCHES, TABLES = 18, 2, 1, 1, 5
+SCENES, WHOLE, BATCHES, READINGS, MARCHES, TABLES = 18, 4, 3, 1, 1, 5
 # Round-off, since the node of a cluster may have another processor: 1e-9 of a value, or of its unit.
 TOLERANCE = 1e-9
 SUBMITTED = "has been submitted with SLURM jobid"
@@ -98,7 +98,7 @@ def test_killed_batch_is_run_again_and_nothing_else(survivor: OnCluster) -> None
 
 def test_numbers_are_those_of_a_run_without_a_cluster(survivor: OnCluster, here: Project) -> None:
     files = [path.relative_to(here.results) for path in here.results.rglob("[!.]*.nc")]
-    assert len(files) == SCENES + MARCHES + 1
+    assert len(files) == SCENES + WHOLE + MARCHES + 2
     for file in files:
         one, other = (load(project.results / file).drop_vars("wall_time") for project in (survivor, here))
         xr.testing.assert_allclose(one, other, rtol=TOLERANCE, atol=TOLERANCE)
@@ -121,7 +121,9 @@ def test_interrupted_run_goes_on_with_what_is_missing(on_cluster: Callable[[str]
         with running(project, "tables") as process:
             until(partial(has_scenes, project, most), process)
             process.send_signal(how)
-        assert process.returncode != 0
+        if process.returncode == 0:  # on a slow node everything may be done before the signal comes
+            assert len(project.scene_files) == SCENES
+            break
         if how is signal.SIGKILL:  # nobody else takes the batches back
             project.cancel_all()
             project.here.run("--unlock")

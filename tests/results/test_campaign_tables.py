@@ -78,13 +78,34 @@ def test_aspect_study_is_complete(scales: dict[int, pd.DataFrame]) -> None:
 def test_no_number_is_missing(every_scene: pd.DataFrame, total: pd.DataFrame) -> None:
     assert len(every_scene) == 224
     assert np.isfinite(every_scene.to_numpy(dtype=float)).all()
-    assert np.isfinite(total.to_numpy(dtype=float)).all()
+    numbers = total.drop(columns=["friction_road_error", "way", "note"])
+    direct = total["refused"] == 0
+    assert direct.sum() > 0.5 * len(total)
+    assert np.isfinite(numbers[direct].to_numpy(dtype=float)).all()
+    assert np.isfinite(total[["friction_total", "friction_total_error"]].to_numpy(dtype=float)).all()
 
 
-def test_total_is_the_sum_of_the_scales(total: pd.DataFrame, scales: dict[int, pd.DataFrame]) -> None:
+def test_total_is_the_direct_one_or_the_sum_that_stands_in(total: pd.DataFrame) -> None:
+    direct = total["refused"] == 0
+    assert (total["way"] == np.where(direct, "direct", "sum")).all()
+    assert (total["friction_total"] == np.where(direct, total["friction_direct"], total["friction_sum"])).all()
+    assert (total["friction_coupling_error"][direct] == 0.0).all()
+    assert (total["friction_coupling_error"][~direct] > 0.0).all()
+    assert total["friction_road_error"].isna().all()
+    assert (total["note"][direct] == "one road with these phases").all()
+
+
+def test_bound_on_the_coupling_covers_the_direct_totals(total: pd.DataFrame) -> None:
+    known = total[total["refused"] == 0]
+    for way in ("sum", "cascade", "persson"):
+        off = (known[f"friction_{way}"] - known["friction_direct"]).abs()
+        assert (off <= known[f"friction_{way}_error"] + known["friction_direct_error"]).mean() >= 0.9
+
+
+def test_sum_is_that_of_the_scales(total: pd.DataFrame, scales: dict[int, pd.DataFrame]) -> None:
     assert points(total, "pressure_MPa", "velocity_mm_per_s") == list(product(PRESSURES, VELOCITIES))
     parts = total[[f"friction_scale_{scale}" for scale in SCALES]]
-    np.testing.assert_allclose(parts.sum(axis=1), total["friction_total"], rtol=1e-5)
+    np.testing.assert_allclose(parts.sum(axis=1), total["friction_sum"], rtol=1e-5)
     for scale, table in scales.items():
         grid = table[table["aspect"] == 0.75]
         assert parts[f"friction_scale_{scale}"].tolist() == grid["friction_coefficient"].tolist()
@@ -96,7 +117,9 @@ def test_every_friction_has_an_error_and_errors_add_up(
     relative = every_scene["friction_coefficient_error"] / every_scene["friction_coefficient"]
     assert 0.0 < relative.min() <= relative.max() < 0.1
     grids = [table[table["aspect"] == 0.75]["friction_coefficient_error"].to_numpy() for table in scales.values()]
-    np.testing.assert_allclose(total["friction_total_error"], np.sum(grids, axis=0), rtol=1e-5)
+    assert (total["friction_sum_error"] > np.sum(grids, axis=0)).all()
+    names = ["friction_numerical_error", "friction_coupling_error"]
+    np.testing.assert_allclose(total["friction_total_error"], total[names].sum(axis=1), rtol=1e-5)
 
 
 def test_energy_closes_in_every_scene(every_scene: pd.DataFrame) -> None:

@@ -8,9 +8,10 @@ from pathlib import Path
 from project_copy import MINIMAL, Project
 
 PROFILE = ("--profile", "workflow/profiles/slurm", "--default-resources", "slurm_partition=main")
-# The cluster keeps no accounts and is asked often; real ones are not. Two batches of scenes, one for each core.
+# The cluster keeps no accounts and is asked often; real ones are not. Two batches of scenes, one for each core, and one
+# of the whole road.
 HURRY = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "1", "--slurm-no-account")
-BATCHES = ("--group-components", "scenes=9", "readings=8")
+BATCHES = ("--group-components", "scenes=9", "whole=4", "readings=8")
 
 
 class OnCluster(Project):

@@ -6,11 +6,16 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pandas as pd
 import pytest
 from project_copy import Plan, Project
 
-FIGURES = {"fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "fig7", "fig8", "fig9"}
+from rubfric.results.campaign import read
+from rubfric.results.dataset import load
+from rubfric.results.selection import refusals
+
+FIGURES = {f"fig{number}" for number in range(1, 12)}
 
 
 def test_copy_uses_its_own_package(template: Project) -> None:
@@ -30,6 +35,23 @@ def test_every_scene_has_a_result_and_nothing_else_has(template: Project) -> Non
     assert len(template.scene_files) == 18
 
 
+def test_every_scene_of_the_whole_road_has_a_result_or_a_reason(template: Project) -> None:
+    scenes = template.campaign.whole_scenes()
+    folder = template.results / "whole" / "zhou2019" / "zhou2019"
+    assert {path.stem for path in folder.iterdir()} == set(scenes)
+    refused = {name for name in scenes if "refusal" in load(folder / f"{name}.nc").attrs}
+    whole = read(template.results / "whole.nc")
+    assert len(refusals(whole)) == len(refused) < len(scenes) == 4
+    assert int(whole["friction_coefficient"].notnull().sum()) == len(scenes) - len(refused)
+    table = pd.read_csv(template.results / "tables" / "friction_total.csv")
+    assert (table["way"] == "direct").sum() == len(scenes) - len(refused)
+    assert table["refused"].sum() == len(refused)
+    parts = table[["friction_numerical_error", "friction_coupling_error"]].sum(axis=1)
+    np.testing.assert_allclose(table["friction_total_error"], parts, rtol=1e-5)
+    for name in refused:
+        assert (template.results / "logs/whole/zhou2019/zhou2019" / f"{name}.log").read_text().startswith("Refused: ")
+
+
 def test_tables_and_figures_are_there(template: Project) -> None:
     scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
     assert set(template.tables) == {"friction_total.csv", *scales}
@@ -45,7 +67,7 @@ def test_claims_are_judged_here_and_in_the_other_reading(template: Project) -> N
     claims = pd.read_csv(template.results / "tables" / "claims.csv")
     whole = claims[claims["pressure_MPa"] == "all"]
     assert set(whole["reading"]) == {"campaign", "plane_strain"}
-    assert list(whole.loc[whole["reading"] == "campaign", "claim"]) == [f"C{number}" for number in range(1, 9)]
+    assert list(whole.loc[whole["reading"] == "campaign", "claim"]) == [f"C{number}" for number in range(1, 10)]
     verdicts = {"holds", "holds in part", "does not hold", "not decided"}
     assert set(claims["verdict"].str.removesuffix(" (simulated)")) <= verdicts
     assert set(claims.loc[claims["verdict"].str.endswith(" (simulated)"), "claim"]) == {"C8"}
@@ -66,12 +88,15 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     lines = (template.results / "logs" / "run.log").read_text().splitlines()
     assert "  18 of 18 scenes" in "\n".join(lines)
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
-    made = ": 18 scenes, 1 march, 8 batches of other readings, 5 tables, 8 figures, 5 other jobs"
+    assert "4 of 4 scenes of the whole road" in "\n".join(lines)
+    counts = "18 scenes, 4 scenes of the whole road, 1 march, 8 batches of other readings"
+    made = f": {counts}, 5 tables, 10 figures, 6 other jobs"
     assert lines[end].endswith(made)
-    assert re.match(r"  slowest: (march of )?scale\S+ \S+ s, ", lines[end + 1])
+    assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
     assert lines[end + 2].startswith("  largest estimated error of friction ")
     assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
-    assert lines[end + 4].startswith("  open first: results/minimal/claims.html, results/minimal/tables/friction_total")
+    assert lines[end + 4].startswith("  largest error of the whole road's friction ")
+    assert any(line.startswith("  open first: results/minimal/claims.html, results/minimal/tables") for line in lines)
     assert end < 60
 
 
@@ -102,7 +127,11 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "campaign": 1,
         "scale_table": 4,
         "total_table": 1,
-        "campaign_figure": 4,
+        "whole_scene": 4,
+        "whole_collection": 1,
+        "campaign_figure": 3,
+        "total_figure": 2,
+        "whole_figure": 1,
         "field_figure": 2,
         "march": 1,
         "march_figure": 1,
@@ -120,7 +149,8 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
 def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -> None:
     done = empty_project.snakemake("-n")
     assert done.returncode == 0
-    would = "18 scenes, 1 march, 8 batches of other readings, 5 tables, 8 figures, 5 other jobs"
+    counts = "18 scenes, 4 scenes of the whole road, 1 march, 8 batches of other readings"
+    would = f"{counts}, 5 tables, 10 figures, 6 other jobs"
     assert f"  Would be made: {would}\n" in done.stdout
     assert len((done.stdout + done.stderr).splitlines()) < 30
     assert not empty_project.results.exists()
@@ -133,7 +163,8 @@ def test_workflow_is_found_where_tools_look_for_it(template: Project) -> None:
 
 def test_targets_ask_for_a_part(empty_project: Project) -> None:
     tables = empty_project.plan("tables").jobs
-    assert tables == {"scene": 18, "campaign": 1, "scale_table": 4, "total_table": 1, "tables": 1}
+    whole = {"whole_scene": 4, "whole_collection": 1}
+    assert tables == {"scene": 18, "campaign": 1, **whole, "scale_table": 4, "total_table": 1, "tables": 1}
     one = "results/minimal/scenes/zhou2019/zhou2019/scale2_v1_p5_aspect0.75_stress.nc"
     assert empty_project.plan(one).jobs == {"scene": 1}
 

@@ -14,25 +14,31 @@ from project_copy import Project
 TABLES = {"scale_table": 4, "total_table": 1}
 CLAIMS = {"claims": 1}
 RIG = {"rig_points": 1, "rig_figure": 1, **CLAIMS}
-CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 4, **RIG, "explorer": 1}
+TOTALS = {"total_table": 1, "total_figure": 2, **RIG, "explorer": 1}
+CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 3, **TOTALS}
+WHOLE = {"whole_scene": 4, "whole_collection": 1, "whole_figure": 1}
 FIELDS = {"field_figure": 2, **CLAIMS}
 MARCHES = {"march": 1, "march_figure": 1, **CLAIMS}
-EVERYTHING = {"scene": 18, **CAMPAIGN, **FIELDS, **MARCHES, "reading": 8}
-CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6", "fig7"}
+EVERYTHING = {"scene": 18, **CAMPAIGN, **FIELDS, **MARCHES, **WHOLE, "reading": 8}
+CAMPAIGN_FIGURES = {"fig1", "fig3", "fig6"}
+TOTAL_FIGURES = {"fig7", "fig10"}
 FIELD_FIGURES = {"fig2", "fig4"}
 DEFAULT = "config/config.yaml"
 
 
 @pytest.mark.parametrize(
-    ("at", "values", "count", "readings"),
+    ("at", "values", "count", "whole", "readings"),
     [
-        ("grid.velocities", [1, 10, 100], 9, 4),
-        pytest.param("grid.pressures", [0.5, 2, 5], 8, 8, marks=pytest.mark.thorough),
-        pytest.param("aspect_study.aspects", [0.5, 0.75, 1.5], 2, 2, marks=pytest.mark.thorough),
+        ("grid.velocities", [1, 10, 100], 9, {"whole_scene": 2, "whole_collection": 1}, 4),
+        pytest.param(
+            *("grid.pressures", [0.5, 2, 5], 8, {"whole_scene": 2, "whole_collection": 1}, 8),
+            marks=pytest.mark.thorough,
+        ),
+        pytest.param("aspect_study.aspects", [0.5, 0.75, 1.5], 2, {}, 2, marks=pytest.mark.thorough),
     ],
 )
 def test_another_value_runs_its_own_scenes_only(
-    project: Project, at: str, values: list[float], count: int, readings: int
+    project: Project, at: str, values: list[float], count: int, whole: dict[str, int], readings: int
 ) -> None:
     before = set(project.campaign.scenes())
     project.configure(at, values)
@@ -40,8 +46,8 @@ def test_another_value_runs_its_own_scenes_only(
     plan = project.plan()
     assert len(added) == count
     assert plan.scenes == added
-    assert plan.jobs == {"scene": count, **CAMPAIGN, "reading": readings}
-    assert plan.figures == CAMPAIGN_FIGURES | {"fig9"}
+    assert plan.jobs == {"scene": count, **CAMPAIGN, **whole, "reading": readings}
+    assert plan.figures == CAMPAIGN_FIGURES | TOTAL_FIGURES | {"fig9"}
 
 
 @pytest.mark.thorough
@@ -50,23 +56,24 @@ def test_value_taken_away_runs_no_scene(project: Project) -> None:
     project.configure("grid.velocities", [100])
     project.configure("figures.fields.velocities", [100])
     plan = project.plan()
-    assert plan.jobs == {**CAMPAIGN, **FIELDS, "reading": 1}  # a batch of the other reading is of fewer scenes
+    whole = {"whole_collection": 1, "whole_figure": 1}
+    assert plan.jobs == {**CAMPAIGN, **FIELDS, **whole, "reading": 1}  # a batch of the other reading is of fewer scenes
 
 
 @pytest.mark.thorough
 def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
     project.configure("figures.fields.pressures", [5])
     plan = project.plan()
-    assert plan.jobs == FIELDS
-    assert plan.figures == FIELD_FIGURES
+    assert plan.jobs == {**FIELDS, "total_figure": 1, "whole_figure": 1}
+    assert plan.figures == FIELD_FIGURES | {"fig10", "fig11"}
 
 
 @pytest.mark.thorough
 def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> None:
     project.configure("figures.total_pressure", 0.5)
     plan = project.plan()
-    assert plan.jobs == {"campaign_figure": 1, **CLAIMS}
-    assert plan.figures == {"fig7"}
+    assert plan.jobs == {"total_figure": 2, **CLAIMS}
+    assert plan.figures == TOTAL_FIGURES
 
 
 @pytest.mark.thorough
@@ -122,9 +129,9 @@ def test_edited_figure_is_drawn_again_alone(project: Project, figure: str, rule:
 def test_edited_style_draws_all_figures_and_nothing_else(project: Project) -> None:
     project.comment("rubfric/figures/style.py")
     plan = project.plan()
-    drawn = {"campaign_figure": 4, "field_figure": 2, "march_figure": 1, "rig_figure": 1, "rig_schematic": 1}
-    assert plan.jobs == drawn
-    assert plan.figures == CAMPAIGN_FIGURES | FIELD_FIGURES | {"fig5", "fig8", "fig9"}
+    drawn = {"campaign_figure": 3, "total_figure": 2, "field_figure": 2, "march_figure": 1, "whole_figure": 1}
+    assert plan.jobs == drawn | {"rig_figure": 1, "rig_schematic": 1}
+    assert plan.figures == CAMPAIGN_FIGURES | TOTAL_FIGURES | FIELD_FIGURES | {"fig5", "fig8", "fig9", "fig11"}
 
 
 def test_edited_mechanics_run_everything(project: Project) -> None:
@@ -154,21 +161,21 @@ def test_added_speed_of_the_marches_runs_its_march_alone(project: Project) -> No
 @pytest.mark.thorough
 def test_edited_collection_runs_no_scene_and_draws_no_fields(project: Project) -> None:
     project.comment("rubfric/results/campaign.py", "workflow/scripts/collect_campaign.py")
-    assert project.plan().jobs == CAMPAIGN
+    assert project.plan().jobs == {**CAMPAIGN, "whole_collection": 1}
 
 
 @pytest.mark.thorough
 def test_edited_tables_are_written_again_alone(project: Project) -> None:
     project.comment("rubfric/results/tables.py")
-    assert project.plan().jobs == {**TABLES, **RIG}
+    assert project.plan().jobs == {**TABLES, **TOTALS}
 
 
 @pytest.mark.thorough
 def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
     project.comment("rubfric/results/scales.py")
     plan = project.plan()
-    assert plan.jobs == {**TABLES, "campaign_figure": 1, **RIG, "explorer": 1}
-    assert plan.figures == {"fig7", "fig9"}
+    assert plan.jobs == TOTALS
+    assert plan.figures == TOTAL_FIGURES | {"fig9"}
 
 
 @pytest.mark.thorough
@@ -222,9 +229,20 @@ def test_other_rubber_runs_everything(project: Project, at: str, value: Any) -> 
 
 
 @pytest.mark.thorough
-def test_other_numerics_run_all_but_the_other_reading_which_has_a_preset(project: Project) -> None:
+def test_other_numerics_run_all_but_what_has_a_preset_of_its_own(project: Project) -> None:
     project.configure("numerics.contact_nodes", 40, DEFAULT)
-    assert project.plan().jobs == {rule: count for rule, count in EVERYTHING.items() if rule != "reading"}
+    assert project.plan().jobs == {rule: count for rule, count in EVERYTHING.items() if rule not in {"reading", *WHOLE}}
+
+
+@pytest.mark.thorough
+def test_other_preset_of_the_whole_road_runs_it_alone(project: Project) -> None:
+    project.configure("multiscale_preset", "standard", DEFAULT)
+    assert project.plan().jobs == {**WHOLE, **TOTALS}
+
+
+def test_other_way_to_the_total_runs_no_scene(project: Project) -> None:
+    project.configure("multiscale", "cascade", DEFAULT)
+    assert project.plan().jobs == TOTALS
 
 
 @pytest.mark.thorough
@@ -244,7 +262,7 @@ def test_other_height_of_one_scale_runs_that_scale_only(project: Project) -> Non
     project.configure("roads.zhou2019.2.amplitude", 0.004, DEFAULT)
     plan = project.plan()
     assert plan.scenes == {name for name in project.campaign.scenes() if name.startswith("scale3_")}
-    assert plan.jobs == {"scene": 4, **CAMPAIGN, "reading": 2}
+    assert plan.jobs == {"scene": 4, **CAMPAIGN, **WHOLE, "reading": 2}
 
 
 @pytest.mark.thorough

@@ -32,7 +32,7 @@ def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, pro
         assert len(new) - len(old) == (3 if name == "friction_scale_1.csv" else 2)
     total = table(project, "friction_total.csv").set_index(["velocity_mm_per_s", "pressure_MPa"])
     expected = [float(simulate(project.campaign.scene(scale, 10, 5)).friction_coefficient) for scale in range(1, 5)]
-    columns = [*(f"friction_scale_{scale}" for scale in range(1, 5)), "friction_total"]
+    columns = [*(f"friction_scale_{scale}" for scale in range(1, 5)), "friction_sum"]
     assert total.loc[(10, 5), columns].to_numpy() == pytest.approx([*expected, sum(expected)], rel=1e-5)
     assert project.plan("tables").jobs == {}
 
@@ -105,6 +105,7 @@ def test_another_rubber_has_its_own_folder_and_the_way_back_is_free(template: Pr
         friction = "friction_total" if name == "friction_total.csv" else "friction_coefficient"
         assert not np.allclose(table(project, name)[friction], table(template, name)[friction])
     project.configure("rubber", "zhou2019", "config/config.yaml")
-    assert project.plan("tables").jobs == {"campaign": 1, "scale_table": 4, "total_table": 1, "tables": 1}
+    again = {"campaign": 1, "whole_collection": 1, "scale_table": 4, "total_table": 1, "tables": 1}
+    assert project.plan("tables").jobs == again
     project.run("tables")
     assert project.tables == template.tables

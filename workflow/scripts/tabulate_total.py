@@ -5,6 +5,7 @@ from typing import Any
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
+from rubfric.results.scales import WAYS
 from rubfric.results.tables import write_table
 from rubfric.results.totals import WholeRoad, total_table
 
@@ -32,6 +33,8 @@ def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str
         "the scales, cascade a cascade of pressures from scale to scale, persson Persson's theory. Its error is "
         "absolute and has three parts: numerics; coupling, by how much a model of the interaction of the scales may "
         "be off; and road, the standard error of the mean over random phases, where they were drawn. It does not "
-        "cover the data of the rubber or the choice of its finite-strain law."
+        "cover the data of the rubber or the choice of its finite-strain law. The spreadsheet has the errors of the "
+        "other ways too."
     )
-    write_page(table_page(table, "Friction of the whole road", words, group="pressure_MPa"), page)
+    shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
+    write_page(table_page(shown, "Friction of the whole road", words, group="pressure_MPa"), page)

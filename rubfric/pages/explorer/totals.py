@@ -11,15 +11,13 @@ import xarray as xr
 
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
-from rubfric.results.campaign import refusals
-from rubfric.results.draws import DRAWS
-from rubfric.scene.scene import ALL
+from rubfric.results.scales import AXES, TOTAL, WORDS
+from rubfric.results.selection import DRAWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
 WAYS = ("sum", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
-_WORDS = ("way", "note")
 # Points among which the lowest and the highest of the road are found.
 _POINTS = 16384
 
@@ -44,8 +42,8 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
     """
     pairs = {way: (f"friction_{way}", f"friction_{way}_error") for way in WAYS}
     parts = {part: f"friction_{part}_error" for part in _PARTS}
-    numbers = [name for pair in pairs.values() for name in pair] + ["friction_total", "friction_total_error"]
-    check_columns(table, "table of totals", ("way",), ["velocity_mm_per_s", "pressure_MPa", *parts.values()], numbers)
+    numbers = [name for pair in pairs.values() for name in pair] + list(TOTAL)
+    check_columns(table, "table of totals", ("way",), [*AXES, *parts.values()], numbers)
     columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])
     # A table has six digits.
     same = [np.isclose(table[name].to_numpy()[:, None], axis, rtol=1e-5, atol=0.0) for name, axis in columns]
@@ -65,7 +63,7 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
         "error": field("friction_total_error"),
         "ways": {way: {"friction": field(one), "error": field(other)} for way, (one, other) in pairs.items()},
         "parts": {part: field(name) for part, name in parts.items()},
-        **{name: words(name) for name in _WORDS},
+        **{name: words(name) for name in WORDS},
     }
 
 
@@ -79,7 +77,7 @@ def reasons(whole: xr.Dataset, axes: Axes) -> list[list[str | None]]:
     """Return why scenes of the whole road were refused, over pressure and speed."""
     # A scene that does not converge says its name first, which the page has said already.
     said = {
-        (pressure, velocity): reason.partition(": ")[2] if reason.startswith(f"{ALL}_") else reason
+        (pressure, velocity): reason.partition(": ")[2] if reason.startswith("all_") else reason
         for (_, velocity, pressure, _), reason in refusals(whole).items()
     }
     return [[said.get((pressure, velocity)) for velocity in axes["velocity"]] for pressure in axes["pressure"]]

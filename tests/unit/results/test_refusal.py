@@ -11,10 +11,11 @@ from bad_configs import DEFAULT
 
 from rubfric.config.campaign import load
 from rubfric.errors import BrokenResult, NotConverged
-from rubfric.results.campaign import collect, refusals
+from rubfric.results.campaign import collect
 from rubfric.results.dataset import read, write
 from rubfric.results.draws import over_draws
 from rubfric.results.provenance import refusal
+from rubfric.results.selection import refusals
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 

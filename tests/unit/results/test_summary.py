@@ -101,3 +101,11 @@ def test_finite_strain_is_named_with_its_effort(result: xr.Dataset) -> None:
 def test_warnings_follow_as_notes(result: xr.Dataset) -> None:
     result.attrs["warnings"] = "One thing.\nAnother thing."
     assert summary(result).splitlines()[-3:] == ["", "Note: One thing.", "Note: Another thing."]
+
+
+def test_error_of_the_whole_road_says_what_it_covers(result: xr.Dataset) -> None:
+    assert "the error covers" not in summary(result)
+    whole = result.assign_attrs(scale=0, amplitude=[0.015, 0.006], wavenumber=[35.0, 80.0], phase=[0.0, 0.0])
+    lines = summary(whole).splitlines()
+    assert lines[0].startswith("zhou2019 on all 2 scales at once, ")
+    assert lines[3].split(maxsplit=3)[3].startswith("mesh, solver, kinematics; not other phases of the waves, ")

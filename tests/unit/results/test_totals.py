@@ -16,7 +16,8 @@ from bad_configs import DEFAULT
 from rubfric.config.campaign import load
 from rubfric.errors import BrokenResult, NotConverged
 from rubfric.mechanics.theory.coupling import Coupling
-from rubfric.results.totals import NOT_NEEDED, WholeRoad, total_table
+from rubfric.results.selection import NOT_NEEDED
+from rubfric.results.totals import WholeRoad, total_table
 
 VELOCITIES, PRESSURES = (1.0, 100.0), (0.5, 5.0)
 AXES = ("scale", "velocity", "pressure", "aspect")
@@ -58,13 +59,11 @@ def at(table: pd.DataFrame, velocity: float, pressure: float) -> pd.Series:
 def test_columns_and_rows_are_in_order(campaign: xr.Dataset) -> None:
     table = total_table(campaign, gathered((0,), 0.3), road("direct"))
     assert list(table.columns) == [
-        *("velocity_mm_per_s", "pressure_MPa", "friction_scale_1", "friction_scale_2"),
-        *("friction_sum", "friction_direct", "friction_cascade", "friction_persson"),
-        *("friction_total", "friction_total_error"),
+        *("velocity_mm_per_s", "pressure_MPa", "friction_total", "friction_total_error", "way"),
         *("friction_numerical_error", "friction_coupling_error", "friction_road_error"),
-        *("nominal_compression", "refused"),
+        *("friction_sum", "friction_direct", "friction_cascade", "friction_persson"),
         *("friction_sum_error", "friction_direct_error", "friction_cascade_error", "friction_persson_error"),
-        *("way", "note"),
+        *("friction_scale_1", "friction_scale_2", "nominal_compression", "refused", "note"),
     ]
     points = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
     assert points == list(product(PRESSURES, VELOCITIES))
