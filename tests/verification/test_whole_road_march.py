@@ -11,6 +11,7 @@ import pytest
 from whole_road import pinned, whole_scene
 
 from rubfric.marching import begin
+from rubfric.road.road import finest_waves
 from rubfric.scene.procedure import PHASES, Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
@@ -68,3 +69,14 @@ def test_pressed_and_slid_half_a_period_friction_is_that_of_steady_sliding() -> 
     scene = whole_scene(10.0, 0.5, numerics=pinned(1024, 1.3))
     expected = solve(whole_scene(10.0, 0.5)).friction.stress_power
     assert marched(scene, "relaxed", COARSE[1], 0.9) == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("velocity", [100.0, 1000.0])
+def test_march_in_finite_strain_stays_at_steady_friction(velocity: float) -> None:
+    """Thirty steps: as far as a contact spot is wide, several times."""
+    columns, steps = 2048, 32
+    scene = whole_scene(velocity, 0.5, kinematics="finite", numerics=pinned(columns, 1.3))
+    expected = solve(whole_scene(velocity, 0.5, kinematics="finite"))
+    friction = marched(scene, "steady", steps, 30 / (steps * finest_waves(scene.road)))
+    assert friction == pytest.approx(expected.friction.stress_power, rel=0.01)
