@@ -53,6 +53,7 @@ bench: $(VENV)/.ready
 	python tools/benchmark/campaign.py
 	python tools/benchmark/transient.py
 	python tools/benchmark/dag.py
+	python tools/benchmark/contact.py
 
 accuracy: $(VENV)/.ready
 	snakemake -j$(JOBS) accuracy

@@ -25,7 +25,7 @@ _HEIGHT = 2.5
 _ESTIMATES = ("sum", "cascade", "persson")
 _DIRECT: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
 _REFUSED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 5.0, "clip_on": False}
-_NOT = "refused: no solution found"
+_NOT = "whole road not solved"
 
 
 @style.applied()
@@ -44,7 +44,7 @@ def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
     matplotlib.figure.Figure
         The paper's sum over the scales, the cascade and Persson's theory as lines; all scales at once with its
         estimated error as a band (the errors of the models, which cover what they neglect, are in the table). Crosses
-        at the bottom are speeds at which the whole road was refused.
+        at the bottom are speeds at which the whole road was refused or not needed.
 
     Raises
     ------
@@ -85,10 +85,10 @@ def _draw_direct(panel: Axes, found: Totals) -> None:
     if np.isfinite(direct).any():
         draw_band(panel, found.speeds, direct, found.errors["direct"], "black")
         panel.plot(found.speeds, direct, label=WAYS["direct"], **_DIRECT)
-    if found.refused.any():
-        place = found.speeds[found.refused]
+    if found.missing.any():
+        place = found.speeds[found.missing]
         across = panel.get_xaxis_transform()
-        panel.plot(place, np.full(place.size, 0.03), transform=across, label=_NOT, gid="refused", **_REFUSED)
+        panel.plot(place, np.full(place.size, 0.03), transform=across, label=_NOT, gid="missing", **_REFUSED)
 
 
 def _handles(axes: Sequence[Axes], found: Sequence[Totals], direct: Array, error: Array) -> list[Artist]:

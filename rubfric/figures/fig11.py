@@ -20,7 +20,7 @@ from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, contacts, dr
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, profile
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed, check_results
-from rubfric.results.selection import written
+from rubfric.results.selection import NOT_NEEDED, REFUSAL, written
 from rubfric.road.waves import WaveRoad
 
 _VARIABLES = (
@@ -82,7 +82,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     ----------
     results : sequence of xarray.Dataset
         Of the whole road, as built by ``results.dataset.build``, of one height-to-width ratio, at every pressure and
-        speed; a scene that was refused has the attribute ``refusal``, which its panel says instead.
+        speed; a scene that was refused or not needed has the attribute ``refusal``, which its panel says instead.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
         Where the results do not fill a grid of pressures and speeds, or lack something.
     """
     check_results("result", results, (*_AXES, "scene_parameters"), (), ("scale", "aspect"))
-    solved = [result for result in results if "refusal" not in result.attrs]
+    solved = [result for result in results if REFUSAL not in result.attrs]
     if solved:
         check_results("result", solved, (), _VARIABLES, ())
     grid = by_pressure_and_speed(results, ())
@@ -106,7 +106,7 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     blocks = {
         place: deform(result, 0.0, road.period, road.wavelength / _LINES)
         for place, result in grid.results.items()
-        if "refusal" not in result.attrs
+        if REFUSAL not in result.attrs
     }
     strip, spot = _views(road, float(results[0].attrs["aspect"]), list(blocks.values()))
     norm = colour_scale(solved)
@@ -151,7 +151,7 @@ def _sheet(grid: SceneGrid, strip: _View, spot: _View) -> _Sheet:
 
 def _note(grid: SceneGrid, strip: _View, spot: _View) -> str:
     wide, narrow = strip.right - strip.left, spot.right - spot.left
-    solved = [result for result in grid.results.values() if "refusal" not in result.attrs]
+    solved = [result for result in grid.results.values() if REFUSAL not in result.attrs]
     note = [
         f"A period of the road, {wide:.3g} mm, and the framed spot, {narrow:.2g} mm, {wide / narrow:.2g} times larger."
     ]
@@ -227,9 +227,9 @@ def _inscribe(panel: Axes, result: xr.Dataset, mark: str, sheet: _Sheet) -> None
     """Write letter, friction and contact into the solid, or why there is nothing to see."""
     look: dict[str, Any] = {"transform": panel.transAxes, "zorder": 3.1}
     corner: dict[str, Any] = {"x": 0.025, "y": 0.05, "va": "bottom", "fontsize": _SMALL, "bbox": PLATE} | look
-    if "refusal" in result.attrs:
-        panel.text(s=f"{mark}refused", **corner)
-        reason = str(result.attrs["refusal"]).removeprefix(f"{result.attrs['scene']}: ")
+    if REFUSAL in result.attrs:
+        reason = str(result.attrs[REFUSAL]).removeprefix(f"{result.attrs['scene']}: ")
+        panel.text(s=mark + ("not needed" if reason.startswith(NOT_NEEDED) else "refused"), **corner)
         words = "\n".join(textwrap.wrap(reason, int(_LETTERS * sheet.panel), max_lines=_LINES_OF_REASON))
         panel.text(0.5, 0.96, words, fontsize=_SMALLEST, ha="center", va="top", **look)
         return

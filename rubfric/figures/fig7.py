@@ -47,8 +47,8 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     matplotlib.figure.Figure
         The finest scale lies at the bottom, the paper's sum is the dashed line on top. The total is the full line, with
         the band of its whole error, of which the legend gives the largest. Where it was obtained in another way, since
-        the whole road was refused, its points are open, with bars. A ring marks the largest of the rest, where it lies
-        between others.
+        the whole road was refused or not needed, its points are open, with bars. A ring marks the largest of the rest,
+        if it lies between others.
 
     Raises
     ------

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rubfric.errors import InvalidInput
 from rubfric.figures.bands import draw_band
 from rubfric.figures.columns import check_columns
+from rubfric.results.scales import AXES, TOTAL
 from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
@@ -27,10 +28,6 @@ WAYS = {
     "cascade": "cascade from scale to scale",
     "persson": "Persson's theory",
 }
-# Columns that are text, even where it looks like a number.
-WORDS = ("way", "note")
-_AXES = ("velocity_mm_per_s", "pressure_MPa")
-_TOTAL = ("friction_total", "friction_total_error", "friction_road_error")
 _HALO, _ASIDE = "white", "black"
 
 
@@ -68,7 +65,7 @@ class Totals:
 
     @property
     def other(self) -> NDArray[np.bool_]:
-        """Where the total was obtained in another way, since this one was refused or did not pay."""
+        """Where the total was obtained in another way, since this one was refused or not needed."""
         return (self.ways != self.way) & np.isfinite(self.total)
 
     @property
@@ -77,7 +74,7 @@ class Totals:
         return np.where(self.other, np.nan, self.total)
 
     @property
-    def refused(self) -> NDArray[np.bool_]:
+    def missing(self) -> NDArray[np.bool_]:
         """Where all scales at once have no friction, though they have elsewhere at this pressure."""
         missing = np.isnan(self.friction["direct"])
         return missing & (not missing.all())
@@ -105,7 +102,13 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
     """
     friction = {way: f"friction_{way}" for way in WAYS}
     errors = {way: f"friction_{way}_error" for way in WAYS}
-    check_columns(table, "table of totals", ("way",), (*_AXES, *_TOTAL, *errors.values()), list(friction.values()))
+    check_columns(
+        table,
+        "table of totals",
+        ("way",),
+        (*AXES, *TOTAL, "friction_road_error", *errors.values()),
+        list(friction.values()),
+    )
     rows = table[np.isclose(table["pressure_MPa"], pressure, rtol=1e-5)].sort_values("velocity_mm_per_s")
     if rows.empty:
         listed = ", ".join(written(one) for one in sorted(set(table["pressure_MPa"])))
@@ -164,5 +167,5 @@ def other_handles(found: Sequence[Totals]) -> list[Line2D]:
     ways = sorted({WAYS.get(str(way), str(way)) for one in found for way in one.ways[one.other]})
     if not ways:
         return []
-    words = f"refused there: {', '.join(ways)},\nwith all of its error"
+    words = f"not solved: {', '.join(ways)},\nwith all of its error"
     return [Line2D([], [], color="black", linestyle="none", marker="o", markerfacecolor="white", label=words)]

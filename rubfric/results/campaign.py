@@ -14,9 +14,9 @@ import xarray as xr
 from rubfric import __version__
 from rubfric.errors import BrokenResult
 from rubfric.results.dataset import load
-from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER, REFUSAL
+from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
 from rubfric.results.scalars import SCALARS, attributes
-from rubfric.results.selection import REFUSALS
+from rubfric.results.selection import REFUSAL, REFUSALS
 
 AXES: dict[str, tuple[str, str]] = {
     "scale": ("1", "scale of the road, 1 being the coarsest; 0 is all at once"),

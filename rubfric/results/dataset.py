@@ -14,8 +14,9 @@ from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
-from rubfric.results.provenance import OTHER_SCENE, REFUSAL, about
+from rubfric.results.provenance import OTHER_SCENE, about
 from rubfric.results.scalars import SCALARS, attributes, scalars
+from rubfric.results.selection import REFUSAL
 from rubfric.results.warnings import below_noise_warning, warnings
 
 

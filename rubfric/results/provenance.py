@@ -10,6 +10,7 @@ from typing import Any
 import xarray as xr
 
 import rubfric
+from rubfric.results.selection import REFUSAL
 from rubfric.road.waves import WaveRoad
 from rubfric.scene.scene import ALL, Scene
 
@@ -17,8 +18,6 @@ PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2
 CONVENTIONS = "CF-1.11 UGRID-1.0"
 # Message about a result of other parameters.
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
-# The attribute that says why a scene has no result.
-REFUSAL = "refusal"
 
 # Read once: looking up versions takes as long as a scene.
 _SOFTWARE = ", ".join(

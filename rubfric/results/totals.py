@@ -15,14 +15,12 @@ from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
 from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import DRAWS, ROAD_ERROR, check_variables, refusals
+from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, check_variables, refusals
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # What the note says of a direct total without random phases.
 ONE_ROAD = "one road with these phases"
-# What a scene of the whole road says that was not needed, before the way that will do.
-NOT_NEEDED = "not needed: the accuracy is met by "
 # The ways that are models of the coupling; the direct total is what they are judged by.
 MODELS = tuple(way for way in WAYS if way != "direct")
 _PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error")

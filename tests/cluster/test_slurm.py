@@ -121,7 +121,9 @@ def test_interrupted_run_goes_on_with_what_is_missing(on_cluster: Callable[[str]
         with running(project, "tables") as process:
             until(partial(has_scenes, project, most), process)
             process.send_signal(how)
-        assert process.returncode != 0
+        if process.returncode == 0:  # on a slow node everything may be done before the signal comes
+            assert len(project.scene_files) == SCENES
+            break
         if how is signal.SIGKILL:  # nobody else takes the batches back
             project.cancel_all()
             project.here.run("--unlock")

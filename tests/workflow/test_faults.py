@@ -247,7 +247,7 @@ def test_damaged_scenes_are_all_named_with_the_way_out_and_a_damaged_march_begin
     assert_same(victim, calm)
     assert not checkpoint.exists()
     (log,) = victim.results.glob("logs/marches/*/*/*.log")
-    assert "beginning afresh" in log.read_text()
+    assert "starting from the beginning" in log.read_text()
 
 
 def path_size(path: Path) -> int:

@@ -196,17 +196,21 @@ def finite(campaign: Campaign) -> str:
     truth, single = found["direct"].to_numpy(), found["sum"].to_numpy()
     points = list(found[POINT].itertuples(index=False, name=None))
     here = [coupling(campaign, case, tuple(at), "finite") for case, *at in points]
-    own = found["case"].to_numpy() == next(iter(cases(campaign)))
+    paper = next(iter(cases(campaign)))
+    own = found["case"].to_numpy() == paper
+    missing = known[known["direct"].isna()]["case"] == paper
     parts = []
-    for label, chosen in (("the paper's rubber and road", own), ("other rubbers and roads", ~own)):
+    for label, chosen, lost in (
+        ("the paper's rubber and road", own, missing.sum()),
+        ("other rubbers and roads", ~own, (~missing).sum()),
+    ):
         rows = []
         for way, name in (*zip(WAYS, WAYS, strict=True), ("direct", "sum, corrected")):
             total = np.array([one.total(way, value) for one, value in zip(here, single, strict=True)])
             error, bound = np.abs(truth / total - 1.0), np.array([one.error(way) for one in here])
             rows.append(judged(name, error[chosen], bound[chosen]))
-        missing = np.count_nonzero((known["case"] == next(iter(cases(campaign)))) == (chosen is own)) - chosen.sum()
         parts.append(
-            f"Finite strain, {label}, {chosen.sum()} points ({missing} more have no reference):\n\n"
+            f"Finite strain, {label}, {chosen.sum()} points ({lost} more have no reference):\n\n"
             f"{markdown_table([HEADS, *rows])}"
         )
     table = []

@@ -37,6 +37,11 @@ SHOWN_WHOLE = {
     and scene.pressure in thinned(SHOWN.pressures, 2)
     and scene.velocity in thinned(SHOWN.velocities, 3)
 }
+# Made before Snakemake looks for them: of files that appear while it does it would know nothing.
+DRAWN_BY = {
+    figure: package_files(f"rubfric.figures.{figure}")
+    for figure in [*CAMPAIGN_FIGURES, *FIELD_FIGURES, *TOTAL_FIGURES, "fig11"]
+}
 FIGURE_WORDS = {
     "fig1": "friction over speed, by height-to-width ratio",
     "fig2": "strain energy over the height",
@@ -62,7 +67,7 @@ FIGURES = [
 
 rule campaign_figure:
     input:
-        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        lambda wildcards: DRAWN_BY[wildcards.figure],
         script="workflow/scripts/draw_figure.py",
         results=rules.campaign.output[0],
     output:
@@ -92,7 +97,7 @@ rule campaign_figure:
 
 rule field_figure:
     input:
-        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        lambda wildcards: DRAWN_BY[wildcards.figure],
         script="workflow/scripts/draw_figure.py",
         results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
     output:
@@ -128,7 +133,7 @@ localrules:
 
 rule total_figure:
     input:
-        lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
+        lambda wildcards: DRAWN_BY[wildcards.figure],
         script="workflow/scripts/draw_total.py",
         table=rules.total_table.output.table,
         campaign=rules.campaign.output[0],
@@ -160,7 +165,7 @@ rule total_figure:
 
 rule whole_figure:
     input:
-        package_files("rubfric.figures.fig11"),
+        DRAWN_BY["fig11"],
         script="workflow/scripts/draw_whole.py",
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:

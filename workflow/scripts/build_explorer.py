@@ -2,13 +2,13 @@
 
 import netCDF4
 
-from rubfric.figures.totals import WORDS
 from rubfric.pages.explorer.data import payload
 from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
-from rubfric.results.provenance import REFUSAL
+from rubfric.results.scales import WORDS
+from rubfric.results.selection import REFUSAL
 from rubfric.results.tables import read_table
 
 

@@ -4,8 +4,8 @@ from importlib import import_module
 from typing import Any
 
 from rubfric.figures.style import save
-from rubfric.figures.totals import WORDS
 from rubfric.results.campaign import read
+from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table
 
 

@@ -5,8 +5,9 @@ from typing import Any
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.dataset import write
 from rubfric.results.provenance import refusal
+from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.summary import summary
-from rubfric.results.totals import NOT_NEEDED, WholeRoad
+from rubfric.results.totals import WholeRoad
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 

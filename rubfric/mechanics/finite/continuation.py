@@ -90,6 +90,26 @@ class AttemptLog:
         self._count(problem, stalled.steps, stalled.krylov)
         self.lines.append(f"{what}: left after {stalled.steps} Newton steps, {stalled.reason}")
 
+    def require_work_left(self, problem: SlidingContact, load: Load, residual: float, what: str) -> None:
+        """Refuse to go on where a scene has had all the work that it may have.
+
+        Parameters
+        ----------
+        problem : SlidingContact
+        load : Load
+        residual : float
+            Of the last attempt.
+        what : str
+            Name of that attempt in the log.
+
+        Raises
+        ------
+        NotConverged
+        """
+        if self.work > (_MOST_WORK if finest_waves(load.road) == 1 else _MOST_WORK_MANY):
+            measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
+            raise NotConverged(problem.label, self.steps, residual, measure, _SPENT)
+
 
 def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, log: AttemptLog) -> Solved:
     """Solve the contact from a block pressed on a flat road.
@@ -167,9 +187,7 @@ def attempt(problem: SlidingContact, start: Start, load: Load, tolerance: float,
         solved = newton(problem, start.fields, load, start.touching, tolerance)
     except Stalled as stalled:
         log.left(problem, what, stalled)
-        if log.work > (_MOST_WORK if finest_waves(load.road) == 1 else _MOST_WORK_MANY):
-            measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
-            raise NotConverged(problem.label, log.steps, stalled.residual, measure, _SPENT) from stalled
+        log.require_work_left(problem, load, stalled.residual, what)
         raise
     log.solved(problem, what, solved)
     return solved
@@ -225,6 +243,7 @@ class Way:
                 continue
             if ahead == 1.0:
                 return solved
+            self._log.require_work_left(self._problem, loads(ahead), solved.residuals[-1], f"{what}{ahead:.4g}")
             before, length = (share, here.fields), ahead - share
             share, here = ahead, Start(solved.fields, solved.correction.contact.touching)
             if solved.steps <= _EASY:
@@ -235,7 +254,7 @@ class Way:
     ) -> float:
         """Return the share up to ``ahead`` at which the extrapolated fields are near a solution."""
         share, (fields, touching) = here[0], (here[1].fields, here[1].touching)
-        shortest = share + _SHORTEST * (ahead - share)
+        shortest = share + max(_SHORTEST * (ahead - share), _SMALLEST_SHARE)
         circulant: Circulant | None = None
         while True:
             guess = _extrapolate(before, (share, fields), ahead)

@@ -15,8 +15,9 @@ import numpy as np
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.krylov import Krylov, Operator
+from rubfric.mechanics.finite.linearised import Linearised
 
 MOST_KRYLOV = 60
 # Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.

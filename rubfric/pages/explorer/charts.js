@@ -25,7 +25,7 @@ function pointWords(data, place, pressure, speed) {
   const curve = data.curves[place];
   const friction = curve.friction[pressure][speed], error = curve.error[pressure][speed];
   const lines = [`${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[pressure])}`];
-  if (friction === null) return `${lines[0]}<br>${place === "whole" && data.refusals[pressure][speed] ? "refused" : "not run"}`;
+  if (friction === null) return `${lines[0]}<br>${place === "whole" ? whyNot(data, pressure, speed) : "not run"}`;
   const share = relative(friction, error);
   lines.push(`<b>μ ${measured(friction, error)}</b>${share ? ` (${share})` : ""}`);
   if (place === "total") {

@@ -133,7 +133,7 @@ function showWords() {
   byId("marks").textContent = marksWords(curve, chosen, data);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
   byId("numbers-title").textContent = place === "total" ? "The scales, and four ways to the total" : "The numbers of this scene";
-  const none = place === "whole" && data.refusals[pressure][speed] ? "Refused" : "Not run";
+  const none = sentence(place === "whole" ? whyNot(data, pressure, speed) : "not run").slice(0, -1);
   byId("covers").textContent = place === "total" ? coversTotal(data, chosen) : coversScene(data, chosen, data.scenes[place][pressure][speed]);
   byId("headline").replaceChildren(friction === null ? none : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
   byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}`;

@@ -39,9 +39,8 @@ function totalNumbers(data, chosen) {
   });
   for (const name of ["sum", "cascade", "persson", "direct"]) {
     const [friction, error] = [ways[name].friction[pressure][speed], ways[name].error[pressure][speed]];
-    const refused = name === "direct" && friction === null && data.refusals?.[pressure][speed];
     const cells = row(element("td", {}, WAY_NAMES[name]), name === "direct" ? data.scenes.whole?.[pressure][speed] : null, friction, error);
-    if (refused) cells.children[1].textContent = "refused";
+    if (name === "direct" && friction === null) cells.children[1].textContent = whyNot(data, pressure, speed);
     rows.push(cells);
   }
   const { friction, error } = data.curves.total;

@@ -11,13 +11,13 @@ import xarray as xr
 
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
+from rubfric.results.scales import AXES, TOTAL, WORDS
 from rubfric.results.selection import DRAWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
 WAYS = ("sum", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
-_WORDS = ("way", "note")
 # Points among which the lowest and the highest of the road are found.
 _POINTS = 16384
 
@@ -42,8 +42,8 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
     """
     pairs = {way: (f"friction_{way}", f"friction_{way}_error") for way in WAYS}
     parts = {part: f"friction_{part}_error" for part in _PARTS}
-    numbers = [name for pair in pairs.values() for name in pair] + ["friction_total", "friction_total_error"]
-    check_columns(table, "table of totals", ("way",), ["velocity_mm_per_s", "pressure_MPa", *parts.values()], numbers)
+    numbers = [name for pair in pairs.values() for name in pair] + list(TOTAL)
+    check_columns(table, "table of totals", ("way",), [*AXES, *parts.values()], numbers)
     columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])
     # A table has six digits.
     same = [np.isclose(table[name].to_numpy()[:, None], axis, rtol=1e-5, atol=0.0) for name, axis in columns]
@@ -63,7 +63,7 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
         "error": field("friction_total_error"),
         "ways": {way: {"friction": field(one), "error": field(other)} for way, (one, other) in pairs.items()},
         "parts": {part: field(name) for part, name in parts.items()},
-        **{name: words(name) for name in _WORDS},
+        **{name: words(name) for name in WORDS},
     }
 
 

@@ -9,6 +9,12 @@ function roadWords(data) {
   return draws ? `mean over ${draws} roads with random phases` : "on one road, with these phases";
 }
 
+/** Why the whole road has no friction there, in two words. */
+function whyNot(data, pressure, speed) {
+  const reason = data.refusals?.[pressure][speed];
+  return !reason ? "not run" : reason.startsWith("not needed") ? "not needed" : "refused";
+}
+
 /** How the total was obtained and what its error covers. */
 function coversTotal(data, { pressure, speed }) {
   const { way, note, parts } = data.totals;
@@ -47,7 +53,7 @@ function comparison(data, chosen) {
 function crosses(data) {
   const found = { x: [], y: [] };
   data.totals.way.forEach((row, pressure) => row.forEach((way, speed) => {
-    if (!way || way === "direct" || !data.refusals?.[pressure][speed]) return;
+    if (!way || way === "direct" || whyNot(data, pressure, speed) !== "refused") return;
     found.x.push(data.speeds[speed]);
     found.y.push(data.curves.total.friction[pressure][speed]);
   }));

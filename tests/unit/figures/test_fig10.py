@@ -60,10 +60,10 @@ def test_refused_speeds_are_crossed(
     table = make_totals(make_campaign(), refused=[(5.0, 10.0), (5.0, 1000.0)])
     figure = fig10.draw(table, [0.5, 5.0])
     light, heavy = figure.axes
-    (crosses,) = (line for line in heavy.get_lines() if line.get_gid() == "refused")
+    (crosses,) = (line for line in heavy.get_lines() if line.get_gid() == "missing")
     assert list(crosses.get_xdata()) == [10.0, 1000.0]
-    assert not [line for line in light.get_lines() if line.get_gid() == "refused"]
-    assert "refused: no solution found" in words(figure)
+    assert not [line for line in light.get_lines() if line.get_gid() == "missing"]
+    assert "whole road not solved" in words(figure)
     style.save(figure, tmp_path / "fig10.png", tmp_path / "fig10.pdf")
     assert overlaps(figure) == []
 
@@ -76,7 +76,7 @@ def test_without_direct_totals_the_estimates_are_drawn(
     table["friction_direct"], table["way"] = np.nan, "sum"
     figure = fig10.draw(table, [5.0, 5.0])
     assert set(curves(figure.axes[0])) == {WAYS[way] for way in ("sum", "cascade", "persson")}
-    assert not any("refused" in one or "error" in one for one in words(figure))
+    assert not any("not solved" in one or "error" in one for one in words(figure))
     assert len(figure.axes) == 1
 
 

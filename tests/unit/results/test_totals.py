@@ -16,7 +16,8 @@ from bad_configs import DEFAULT
 from rubfric.config.campaign import load
 from rubfric.errors import BrokenResult, NotConverged
 from rubfric.mechanics.theory.coupling import Coupling
-from rubfric.results.totals import NOT_NEEDED, WholeRoad, total_table
+from rubfric.results.selection import NOT_NEEDED
+from rubfric.results.totals import WholeRoad, total_table
 
 VELOCITIES, PRESSURES = (1.0, 100.0), (0.5, 5.0)
 AXES = ("scale", "velocity", "pressure", "aspect")

@@ -26,8 +26,9 @@ from rubfric.mechanics.block.contact import Convolution, pivot
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, Load, SlidingContact, SlopedSurface
+from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, SlopedSurface
 from rubfric.mechanics.finite.law import Inverted
+from rubfric.mechanics.finite.linearised import Linearised
 from rubfric.mechanics.finite.newton import Solved, newton
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
+from finite_fields import AMPLITUDE, WAVENUMBER, coarse, everywhere, flat, load, sliding
 
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite import continuation
 from rubfric.mechanics.finite.contact import Load, SlidingContact
-from rubfric.mechanics.finite.continuation import AttemptLog, Start, attempt, reach
-from rubfric.mechanics.finite.newton import Solved, Stalled, newton
+from rubfric.mechanics.finite.continuation import AttemptLog, Start, Way, attempt, reach
+from rubfric.mechanics.finite.newton import Solved, Stalled, newton, starting_distance
+from rubfric.road.waves import WaveRoad
 
 PRESSURE, TOLERANCE = 0.5, 1e-8
 LOAD = load(PRESSURE)
@@ -149,3 +151,63 @@ def test_history_adds_up(problem: SlidingContact, pressed: Start) -> None:
     assert history.steps == first.steps + second.steps
     assert history.krylov == first.krylov + second.krylov
     assert len(history.lines) == 2
+
+
+@pytest.fixture
+def waves() -> Load:
+    road = WaveRoad((AMPLITUDE, 0.2 * AMPLITUDE), (WAVENUMBER, 3.0 * WAVENUMBER), (0.0, 0.0))
+    return Load(road, PRESSURE)
+
+
+def test_on_many_waves_the_road_is_raised_under_a_light_load_and_then_the_load(
+    problem: SlidingContact, pressed: Start, waves: Load, stalling: Callable[[Stall], list[Load]]
+) -> None:
+    expected = newton(problem, pressed.fields, waves, pressed.touching, TOLERANCE)
+    tried, history = stalling(lambda _: False), AttemptLog()
+    solved = reach(problem, pressed, waves, TOLERANCE, history)
+    np.testing.assert_allclose(solved.fields.displacement, expected.fields.displacement, atol=1e-5 * AMPLITUDE)
+    assert problem.size(solved.correction.step) <= TOLERANCE
+    raised = [load for load in tried if load.share < 1.0]
+    heavier = [load.pressure for load in tried[len(raised) + 1 :]]
+    assert {load.pressure for load in tried[: len(raised) + 1]} == {0.1 * PRESSURE}
+    assert len(raised) > 0
+    assert np.all(np.diff(heavier) > 0.0)
+    assert tried[-1] == waves
+    assert history.lines[-1].startswith("16 columns, load at 1: ")
+
+
+def test_step_is_shortened_until_it_starts_near(
+    problem: SlidingContact,
+    pressed: Start,
+    stalling: Callable[[Stall], list[Load]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tried, history = stalling(lambda _: False), AttemptLog()
+
+    def distance(problem: object, fields: object, load: Load, *_: object) -> tuple[float, None]:
+        return 2.0 * (load.share - (tried[-1].share if tried else 0.0)), None
+
+    monkeypatch.setattr(continuation, "starting_distance", distance)
+    solved = Way(problem, TOLERANCE, history).follow(pressed, lambda share: replace(LOAD, share=share), "at ")
+    assert problem.size(solved.correction.step) <= TOLERANCE
+    steps = np.diff([0.0] + [load.share for load in tried])
+    assert steps.max() <= 0.15
+    assert steps[0] > 0.05
+
+
+def test_work_is_bounded_on_a_way_that_goes_on(
+    problem: SlidingContact, pressed: Start, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(continuation, "_MOST_WORK", 1e5)
+    way = Way(problem, TOLERANCE, AttemptLog())
+    with pytest.raises(NotConverged, match="only so much work"):
+        way.follow(pressed, lambda share: replace(LOAD, share=share), "at ")
+
+
+def test_fields_without_a_contact_are_infinitely_far(problem: SlidingContact, pressed: Start) -> None:
+    known, circulant = starting_distance(problem, pressed.fields, LOAD, pressed.touching)
+    assert circulant is not None
+    assert known == problem.size(problem.correct(circulant, pressed.fields, LOAD, pressed.touching).step)
+    folded = problem.finite.at_rest()
+    folded.displacement[1] = -2.0 * problem.finite.block.row_positions[:, None]
+    assert starting_distance(problem, folded, LOAD, pressed.touching)[0] == np.inf

@@ -9,8 +9,9 @@ from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
 from rubfric.arrays import Flags
 from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
-from rubfric.mechanics.finite.contact import Correction, Linearised, SlidingContact
+from rubfric.mechanics.finite.contact import Correction, SlidingContact
 from rubfric.mechanics.finite.direction import Direction, newton_direction
+from rubfric.mechanics.finite.linearised import Linearised
 
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 PRESSURE, FORCING = 0.5, 1e-9

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import pickle
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from finite_fields import AMPLITUDE, ELASTIC, PROPORTIONAL, RUBBER, coarse, everywhere, flat, load, sliding
 
 from rubfric.errors import NotConverged
+from rubfric.mechanics.finite import newton as newtonmodule
 from rubfric.mechanics.finite.contact import SlidingContact
+from rubfric.mechanics.finite.direction import Direction, newton_direction
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
 from rubfric.rubber.material import Material
 
@@ -116,6 +120,32 @@ def test_contact_without_a_solution_stalls(monkeypatch: pytest.MonkeyPatch) -> N
     with pytest.raises(Stalled, match="some scene: not converged after 3 steps") as caught:
         solve(problem)
     assert isinstance(caught.value.__cause__, NotConverged)
+
+
+def test_residual_that_falls_too_slowly_stalls(monkeypatch: pytest.MonkeyPatch) -> None:
+    def hesitating(*given: Any) -> Direction:
+        found = newton_direction(*given)
+        rest = problem.finite.at_rest()
+        return replace(found, step=rest.moved(rest, -1.0).moved(found.step, 0.15))
+
+    problem = sliding(coarse("strain"))
+    monkeypatch.setattr(newtonmodule, "newton_direction", hesitating)
+    with pytest.raises(Stalled, match="the residual falls too slowly") as caught:
+        solve(problem)
+    assert caught.value.steps == 3
+
+
+def test_step_at_the_first_guess_is_taken_where_it_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    def unsettled(*given: Any) -> Direction:
+        found = newton_direction(*given)
+        rest = problem.finite.at_rest()
+        return replace(found, step=rest.moved(rest, -1.0), plain=(found.step, found.touching))
+
+    problem = sliding(coarse("strain"))
+    expected = solve(problem)
+    monkeypatch.setattr(newtonmodule, "newton_direction", unsettled)
+    found = solve(problem)
+    assert found.residuals == expected.residuals
 
 
 def test_stalled_survives_pickling() -> None:
