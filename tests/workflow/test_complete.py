@@ -41,7 +41,7 @@ def test_every_scene_of_the_whole_road_has_a_result_or_a_reason(template: Projec
     assert {path.stem for path in folder.iterdir()} == set(scenes)
     refused = {name for name in scenes if "refusal" in load(folder / f"{name}.nc").attrs}
     whole = read(template.results / "whole.nc")
-    assert len(refusals(whole)) == len(refused) < len(scenes) == 4
+    assert len(refusals(whole)) == len(refused) <= 1 < len(scenes) == 4
     assert int(whole["friction_coefficient"].notnull().sum()) == len(scenes) - len(refused)
     table = pd.read_csv(template.results / "tables" / "friction_total.csv")
     assert (table["way"] == "direct").sum() == len(scenes) - len(refused)
@@ -152,7 +152,7 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 8 batches of other readings"
     would = f"{counts}, 5 tables, 10 figures, 6 other jobs"
     assert f"  Would be made: {would}\n" in done.stdout
-    assert len((done.stdout + done.stderr).splitlines()) < 30
+    assert len((done.stdout + done.stderr).splitlines()) < 36
     assert not empty_project.results.exists()
 
 
@@ -165,7 +165,7 @@ def test_targets_ask_for_a_part(empty_project: Project) -> None:
     tables = empty_project.plan("tables").jobs
     whole = {"whole_scene": 4, "whole_collection": 1}
     assert tables == {"scene": 18, "campaign": 1, **whole, "scale_table": 4, "total_table": 1, "tables": 1}
-    one = "results/minimal/scenes/zhou2019/zhou2019/scale2_v1_p5_aspect0.75_stress.nc"
+    one = "results/minimal/scenes/zhou2019/zhou2019/scale2_v1_p0.5_aspect0.75_stress.nc"
     assert empty_project.plan(one).jobs == {"scene": 1}
 
 

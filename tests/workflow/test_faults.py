@@ -27,6 +27,7 @@ TARGETS = ("tables", "marches")
 # Five scenes and a march of 48 steps.
 TINY = """
 results: results/tiny
+multiscale: sum
 road: two
 roads:
   two:

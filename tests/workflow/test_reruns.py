@@ -31,7 +31,7 @@ DEFAULT = "config/config.yaml"
     [
         ("grid.velocities", [1, 10, 100], 9, {"whole_scene": 2, "whole_collection": 1}, 4),
         pytest.param(
-            *("grid.pressures", [0.5, 2, 5], 8, {"whole_scene": 2, "whole_collection": 1}, 8),
+            *("grid.pressures", [0.2, 0.5, 1], 8, {"whole_scene": 2, "whole_collection": 1}, 8),
             marks=pytest.mark.thorough,
         ),
         pytest.param("aspect_study.aspects", [0.5, 0.75, 1.5], 2, {}, 2, marks=pytest.mark.thorough),
@@ -62,7 +62,7 @@ def test_value_taken_away_runs_no_scene(project: Project) -> None:
 
 @pytest.mark.thorough
 def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
-    project.configure("figures.fields.pressures", [5])
+    project.configure("figures.fields.pressures", [0.5])
     plan = project.plan()
     assert plan.jobs == {**FIELDS, "total_figure": 1, "whole_figure": 1}
     assert plan.figures == FIELD_FIGURES | {"fig10", "fig11"}
@@ -70,7 +70,7 @@ def test_other_choice_of_fields_draws_them_only(project: Project) -> None:
 
 @pytest.mark.thorough
 def test_other_pressure_of_the_total_draws_its_figure_only(project: Project) -> None:
-    project.configure("figures.total_pressure", 0.5)
+    project.configure("figures.total_pressure", 0.2)
     plan = project.plan()
     assert plan.jobs == {"total_figure": 2, **CLAIMS}
     assert plan.figures == TOTAL_FIGURES
@@ -103,11 +103,11 @@ def test_measured_runs_take_the_place_of_the_virtual_rig_or_are_named_as_missing
 
 def test_order_and_spelling_of_numbers_run_nothing(project: Project) -> None:
     project.configure("grid.velocities", [100.0, 1.0])
-    project.configure("grid.pressures", [5, 0.50])
+    project.configure("grid.pressures", [0.5, 0.20])
     project.configure("grid.aspect", 0.7500000000000001)
     project.configure("aspect_study.aspects", [0.75, 0.5])
     project.configure("aspect_study.scales", [1.0])
-    project.configure("figures.total_pressure", 5.0)
+    project.configure("figures.total_pressure", 0.5000000000000001)
     project.configure("figures.fields.velocities", [100.0, 1])
     project.edit(DEFAULT, lambda text: text.replace("youngs_modulus: 4.17", "youngs_modulus: 4.1700"))
     project.edit(DEFAULT, lambda text: text.replace("amplitude: 0.015", "amplitude: 1.5e-2"))
@@ -294,7 +294,7 @@ def test_deleted_table_is_written_again_alone(project: Project) -> None:
 
 
 def test_deleted_scene_is_made_again(project: Project) -> None:
-    name = "scale4_v1_p5_aspect0.75_stress"
+    name = "scale4_v1_p0.5_aspect0.75_stress"
     project.scene_files[name].unlink()
     plan = project.plan()
     assert plan.scenes == {name}
