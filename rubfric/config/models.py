@@ -260,9 +260,10 @@ class Config(Entry):
     multiscale: Annotated[
         str,
         Choice(
-            "How the friction of the whole road is obtained: the sum over its scales (the paper), a cascade of "
-            "pressures from scale to scale, all scales at once (direct), Persson's theory, or the cheapest of these "
-            "that is accurate enough (auto).",
+            "How the friction of the whole road is obtained: the sum over its scales (the paper), that sum corrected "
+            "for what coupling does in small strain, a cascade of pressures from scale to scale, Persson's theory, all "
+            "scales at once (direct, minutes a scene where much of the road is in contact), or auto: the cheapest that "
+            "is accurate enough, and the corrected sum where that would take minutes.",
             WAYS,
         ),
     ]

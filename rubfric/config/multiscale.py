@@ -10,7 +10,7 @@ from rubfric.errors import InvalidInput
 from rubfric.road.waves import WaveRoad
 
 # The ways from the scales to the whole road; direct simulates all scales at once, auto takes the cheapest that will do.
-WAYS = ("sum", "cascade", "direct", "persson", "auto")
+WAYS = ("sum", "corrected", "cascade", "persson", "direct", "auto")
 # Those that simulate the whole road.
 DIRECT = ("direct", "auto")
 
@@ -21,7 +21,7 @@ class Multiscale:
 
     Attributes
     ----------
-    way : {"sum", "cascade", "direct", "persson", "auto"}
+    way : {"sum", "corrected", "cascade", "persson", "direct", "auto"}
     preset : str
         The preset with which the whole road is simulated.
     draws : int

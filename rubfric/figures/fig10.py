@@ -22,7 +22,7 @@ from rubfric.results.selection import written
 Array = NDArray[np.float64]
 
 _HEIGHT = 2.5
-_ESTIMATES = ("sum", "cascade", "persson")
+_ESTIMATES = ("sum", "corrected", "cascade", "persson")
 _DIRECT: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
 _REFUSED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 5.0, "clip_on": False}
 _NOT = "whole road not solved"
@@ -76,7 +76,7 @@ def _looks() -> list[dict[str, Any]]:
     looks = style.kinds(len(_ESTIMATES))
     return [
         look | {"linestyle": dash, "linewidth": 1.0, "markersize": 3.5, "clip_on": False}
-        for look, dash in zip(looks, style.dashes(4)[1:], strict=True)
+        for look, dash in zip(looks, style.dashes(5)[1:], strict=True)
     ]
 
 

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 WAYS = {
     "direct": "all scales at once",
     "sum": "sum of the scales",
+    "corrected": "sum, corrected for the coupling",
     "cascade": "cascade from scale to scale",
     "persson": "Persson's theory",
 }

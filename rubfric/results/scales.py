@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 
 # The ways to the friction of the whole road, in the order of the table of totals, whose columns these are.
-WAYS = ("sum", "direct", "cascade", "persson")
+WAYS = ("sum", "direct", "corrected", "cascade", "persson")
 AXES = ("velocity_mm_per_s", "pressure_MPa")
 TOTAL = ("friction_total", "friction_total_error")
 # Columns of that table that are text.

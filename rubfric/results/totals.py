@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
@@ -14,11 +15,15 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
+from rubfric.mechanics.theory.layer import full_contact_pressure
 from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
 from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, check_variables, refusals
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
+# Contact fraction beyond which the whole road takes minutes in finite strain, and what the note says there.
+_MOST_CONTACT = 0.15
+_DEAR = "much of the road is in contact, where all scales at once take minutes: multiscale: direct solves them"
 # What the note says of a direct total without random phases.
 ONE_ROAD = "one road with these phases"
 # The ways that are models of the coupling; the direct total is what they are judged by.
@@ -32,7 +37,7 @@ class WholeRoad:
 
     Attributes
     ----------
-    way : {"sum", "cascade", "direct", "persson", "auto"}
+    way : {"sum", "corrected", "cascade", "persson", "direct", "auto"}
         By which it is asked for.
     accuracy : float
         Relative; what ``auto`` asks of the coupling.
@@ -68,12 +73,26 @@ class WholeRoad:
         return [estimate(self.material, road, *about) for road in self.roads]
 
     def cheapest(self, velocity: float, pressure: float) -> str:
-        """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa)."""
+        """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
+
+        In finite strain it is the corrected sum where no way is, and much of the road is in contact: the whole road
+        would take minutes there.
+        """
         try:
             ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
         except NotConverged:
             return "direct"
-        return ways.pop() if len(ways) == 1 else "direct"
+        way = ways.pop() if len(ways) == 1 else "direct"
+        dear = self.kinematics != "small" and self._contact(velocity, pressure) > _MOST_CONTACT
+        return "corrected" if way == "direct" and dear else way
+
+    def _contact(self, velocity: float, pressure: float) -> float:
+        """Return Persson's contact fraction of the whole road, erf(p / p*)."""
+        about = (velocity, self.height, self.plane)
+        return max(
+            math.erf(pressure / full_contact_pressure(self.material, road, *about)) if road.steepest_slope else 1.0
+            for road in self.roads
+        )
 
 
 class _Total(NamedTuple):
@@ -185,10 +204,15 @@ def _chosen(road: WholeRoad, found: Mapping[str, _Total], reason: str) -> tuple[
     if road.way not in DIRECT:
         return road.way, 0, ""
     if reason.startswith(NOT_NEEDED):
-        return reason.removeprefix(NOT_NEEDED), 0, "the cheapest way that is accurate enough"
+        way = reason.removeprefix(NOT_NEEDED)
+        return way, 0, _DEAR if way == "corrected" else "the cheapest way that is accurate enough"
     if np.isnan(direct.friction):
         missing = len(road.roads) if reason else 0
-        return "sum", missing, f"the sum stands in for the whole road, which was refused: {reason or 'it was not run'}"
+        return (
+            "corrected",
+            missing,
+            f"the corrected sum stands in for the whole road, which was refused: {reason or 'it was not run'}",
+        )
     refused = len(road.roads) - direct.draws if direct.draws else 0
     about = f"mean of {direct.draws} roads with random phases" if direct.draws else ONE_ROAD
     return "direct", refused, about + (f"; {refused} more refused: {reason}" if refused else "")

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 WAYS = {
     "direct": "all scales at once",
     "sum": "sum over the scales",
+    "corrected": "sum, corrected for the coupling",
     "cascade": "cascade from scale to scale",
     "persson": "Persson's theory",
 }

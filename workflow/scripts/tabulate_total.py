@@ -30,8 +30,8 @@ def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str
     words = (
         f"Friction of every scale and of the whole road, for blocks {about.aspect:g} times as high as the coarsest "
         "wave is long. The total is that of the column way: direct is all scales at once, sum the paper's sum over "
-        "the scales, cascade a cascade of pressures from scale to scale, persson Persson's theory. Its error is "
-        "absolute and has three parts: numerics; coupling, by how much a model of the interaction of the scales may "
+        "the scales, cascade a cascade of pressures from scale to scale, persson Persson's theory, corrected the sum times what "
+        "coupling does in small strain. Its error is absolute and has three parts: numerics; coupling, by how much a model of the interaction of the scales may "
         "be off; and road, the standard error of the mean over random phases, where they were drawn. It does not "
         "cover the data of the rubber or the choice of its finite-strain law. The spreadsheet has the errors of the "
         "other ways too."

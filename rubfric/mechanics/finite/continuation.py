@@ -32,7 +32,7 @@ _EASY, _LONGER = 5, 1.6
 _LIGHT = 0.1
 # Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds on one wave. A
 # Newton step costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
-_MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 3.0e8, 10, 5000
+_MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 1.5e8, 10, 5000
 
 _SPENT = "a scene has only so much work, and this one has had it: most likely it has no solution under so heavy a load"
 

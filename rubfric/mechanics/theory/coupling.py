@@ -21,7 +21,7 @@ from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # What may be asked for in place of the direct total, the cheapest first.
-WAYS = ("sum", "cascade", "persson")
+WAYS = ("sum", "cascade", "persson", "corrected")
 # M in small strain; in finite strain, and what it grows by with the share of its height that a flat block loses.
 _SMALL, _FINITE, _PRESSED = 0.04, 0.13, 0.4
 # Friction coefficients below this are those of rubber that dissipates nothing.
@@ -57,8 +57,8 @@ class Coupling:
 
         Parameters
         ----------
-        way : {"sum", "cascade", "persson", "direct"}
-            By ``direct`` it is the sum corrected for the coupling in small strain.
+        way : {"sum", "cascade", "persson", "corrected"}
+            By ``corrected`` it is the sum times direct over sum in small strain.
         single : float
             The sum.
         """
@@ -69,7 +69,7 @@ class Coupling:
 
         Parameters
         ----------
-        way : {"sum", "cascade", "persson", "direct"}
+        way : {"sum", "cascade", "persson", "corrected"}
         """
         value = self._of(way)
         if value < _NONE:
@@ -82,7 +82,7 @@ class Coupling:
         return next((way for way in WAYS if self.error(way) <= accuracy), "direct")
 
     def _of(self, way: str) -> float:
-        return {"sum": self.sum, "cascade": self.cascade, "persson": self.persson, "direct": self.direct}[way]
+        return {"sum": self.sum, "cascade": self.cascade, "persson": self.persson, "corrected": self.direct}[way]
 
 
 @lru_cache(maxsize=1024)

@@ -30,7 +30,7 @@ function pointWords(data, place, pressure, speed) {
   lines.push(`<b>μ ${measured(friction, error)}</b>${share ? ` (${share})` : ""}`);
   if (place === "total") {
     lines.push(WAY_NAMES[data.totals.way[pressure][speed]]);
-    for (const way of ["sum", "cascade", "persson"]) {
+    for (const way of ["sum", "corrected", "cascade", "persson"]) {
       const { friction: of, error: off } = data.totals.ways[way];
       if (of[pressure][speed] !== null) lines.push(`${WAY_NAMES[way]}: ${measured(of[pressure][speed], off[pressure][speed])}`);
     }

@@ -37,7 +37,7 @@ function totalNumbers(data, chosen) {
     const name = element("td", {}, element("span", { class: "swatch", style: `background:${data.colours.scales[order]}` }), `scale ${number}`);
     return row(name, scene, scene?.friction ?? null, scene?.error ?? null, scene && sum ? percent(scene.friction / sum) : "");
   });
-  for (const name of ["sum", "cascade", "persson", "direct"]) {
+  for (const name of ["sum", "corrected", "cascade", "persson", "direct"]) {
     const [friction, error] = [ways[name].friction[pressure][speed], ways[name].error[pressure][speed]];
     const cells = row(element("td", {}, WAY_NAMES[name]), name === "direct" ? data.scenes.whole?.[pressure][speed] : null, friction, error);
     if (name === "direct" && friction === null) cells.children[1].textContent = whyNot(data, pressure, speed);

@@ -16,7 +16,7 @@ from rubfric.results.selection import DRAWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
-WAYS = ("sum", "cascade", "persson", "direct")
+WAYS = ("sum", "corrected", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
 # Points among which the lowest and the highest of the road are found.
 _POINTS = 16384

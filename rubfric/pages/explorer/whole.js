@@ -1,7 +1,7 @@
 "use strict";
 // The whole road: what its friction and error are made of, a magnified spot, and the scale of energies below a picture.
 
-const WAY_NAMES = { sum: "sum of the scales", cascade: "cascade from scale to scale", persson: "Persson’s theory", direct: "all scales at once" };
+const WAY_NAMES = { sum: "sum of the scales", corrected: "sum, corrected for the coupling", cascade: "cascade from scale to scale", persson: "Persson’s theory", direct: "all scales at once" };
 
 /** Of which road a total is. */
 function roadWords(data) {
