@@ -15,8 +15,12 @@ def whole_files(wildcards):
 
 # What decides whether a scene of the whole road is needed.
 CHOOSING = ["rubfric.results.totals"] if CAMPAIGN.multiscale.way == "auto" else []
-# The collection of them; none where the total does without.
-WHOLE_COLLECTION = [f"{RESULTS}/whole.nc"] if WHOLE else []
+# Other scenes, another name, as for the collection of the scales.
+WHOLE_MARK = (
+    f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}"
+)
+# The collection of them, and its mark; none where the total does without.
+WHOLE_COLLECTION = [f"{RESULTS}/whole.nc", WHOLE_MARK] if WHOLE else []
 
 
 rule whole_scene:
@@ -46,7 +50,7 @@ rule whole_scene:
 
 rule whole_collection:
     input:
-        package_files("rubfric.results.draws"),
+        package_files("rubfric.results.campaign", "rubfric.results.draws"),
         script="workflow/scripts/collect_whole.py",
         scenes=whole_files,
     output:
@@ -56,7 +60,7 @@ rule whole_collection:
             category=REPORT.fields,
             labels={"data": "scalars of every scene of the whole road (netCDF)"},
         ),
-        mark=f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}",
+        mark=WHOLE_MARK,
     log:
         f"{RESULTS}/logs/whole.log",
     params:

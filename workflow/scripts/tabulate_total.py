@@ -30,11 +30,11 @@ def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str
     words = (
         f"Friction of every scale and of the whole road, for blocks {about.aspect:g} times as high as the coarsest "
         "wave is long. The total is that of the column way: direct is all scales at once, sum the paper's sum over "
-        "the scales, cascade a cascade of pressures from scale to scale, persson Persson's theory, corrected the sum times what "
-        "coupling does in small strain. Its error is absolute and has three parts: numerics; coupling, by how much a model of the interaction of the scales may "
-        "be off; and road, the standard error of the mean over random phases, where they were drawn. It does not "
-        "cover the data of the rubber or the choice of its finite-strain law. The spreadsheet has the errors of the "
-        "other ways too."
+        "the scales, corrected that sum times what coupling does in small strain, cascade a cascade of pressures from "
+        "scale to scale, persson Persson's theory. Its error is absolute and has three parts: numerics; coupling, by "
+        "how much a model of the interaction of the scales may be off; and road, the standard error of the mean over "
+        "random phases, where they were drawn. It does not cover the data of the rubber or the choice of its "
+        "finite-strain law. The spreadsheet has the errors of the other ways too."
     )
     shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
     write_page(table_page(shown, "Friction of the whole road", words, group="pressure_MPa"), page)
