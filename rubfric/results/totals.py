@@ -22,7 +22,7 @@ from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # Contact fraction beyond which the whole road takes minutes in finite strain, and what the note says there.
-_MOST_CONTACT = 0.15
+_MOST_CONTACT = 0.22
 _DEAR = "much of the road is in contact, where all scales at once take minutes: multiscale: direct solves them"
 # What the note says of a direct total without random phases.
 ONE_ROAD = "one road with these phases"
