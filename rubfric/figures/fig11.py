@@ -229,7 +229,7 @@ def _inscribe(panel: Axes, result: xr.Dataset, mark: str, sheet: _Sheet) -> None
     corner: dict[str, Any] = {"x": 0.025, "y": 0.05, "va": "bottom", "fontsize": _SMALL, "bbox": PLATE} | look
     if REFUSAL in result.attrs:
         reason = str(result.attrs[REFUSAL]).removeprefix(f"{result.attrs['scene']}: ")
-        panel.text(s=mark + ("not needed" if reason.startswith(NOT_NEEDED) else "refused"), **corner)
+        panel.text(s=mark + ("not solved" if reason.startswith(NOT_NEEDED) else "refused"), **corner)
         words = "\n".join(textwrap.wrap(reason, int(_LETTERS * sheet.panel), max_lines=_LINES_OF_REASON))
         panel.text(0.5, 0.96, words, fontsize=_SMALLEST, ha="center", va="top", **look)
         return

@@ -15,7 +15,7 @@ _NAMES = {"scale": "scale", "velocity": "speed", "pressure": "pressure", "aspect
 _UNITS = {"velocity": " mm/s", "pressure": " MPa"}
 # The attribute that says why a scene has no result, and what one says there that was not needed, before the way that
 # will do.
-REFUSAL, NOT_NEEDED = "refusal", "not solved at once, but by way of: "
+REFUSAL, NOT_NEEDED = "refusal", "not solved at once; instead the total is by way of: "
 # The attribute of a collection that holds the coordinates of refused scenes, and why they were refused.
 REFUSALS = "refusals"
 # Of a mean over roads with random phases: how many were solved, and the standard error of the mean friction over them.

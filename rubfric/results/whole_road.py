@@ -14,7 +14,7 @@ from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # Contact fraction beyond which the whole road takes minutes in finite strain.
-_MOST_CONTACT = 0.15
+_MOST_CONTACT = 0.22
 
 
 @dataclass(frozen=True)

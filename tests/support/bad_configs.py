@@ -160,7 +160,7 @@ BAD_MODELS = [
     Bad(
         "multiscale",
         "sums",
-        r"multiscale is 'sums', but must be one of sum, cascade, direct, persson, auto .did you me",
+        r"multiscale is 'sums', but must be one of sum, corrected, cascade, persson, direct, auto .did you me",
     ),
     Bad(
         "multiscale_preset", "fast", "multiscale_preset is 'fast', but must be one of draft, standard, reference", False
@@ -170,7 +170,7 @@ BAD_MODELS = [
     Bad(
         f"{ROAD}.1.wavenumber",
         81.1234567,
-        r"roads.zhou2019 cannot be taken whole, as multiscale: direct does: .* 35, 81.0\d*, 199.\S*, 300.\S* 1/mm, "
+        r"roads.zhou2019 cannot be taken whole, as multiscale: auto does: .* 35, 81.0\d*, 199.\S*, 300.\S* 1/mm, "
         "which .*; multiscale: sum does without$",
         schema=False,
     ),

@@ -51,10 +51,10 @@ def make_totals(
         if np.isnan(total):
             continue
         gone = (pressure, speed) in refused
-        shares = {"sum": 1.0, "direct": np.nan if gone else 0.7, "cascade": 0.9, "persson": 0.8}
+        shares = {"sum": 1.0, "direct": np.nan if gone else 0.7, "corrected": 0.75, "cascade": 0.9, "persson": 0.8}
         row = {"velocity_mm_per_s": speed, "pressure_MPa": pressure}
         row |= {f"friction_{way}": share * total for way, share in shares.items()}
-        row |= {f"friction_{way}_error": 0.4 * total for way in ("sum", "cascade", "persson")}
+        row |= {f"friction_{way}_error": 0.4 * total for way in ("sum", "corrected", "cascade", "persson")}
         row |= {"friction_direct_error": np.nan if gone else 0.01 * total}
         row |= {"friction_total": total if gone else 0.7 * total}
         row |= {"friction_total_error": (0.4 if gone else 0.01) * total}

@@ -6,6 +6,8 @@ digits; ``boundary_element`` is another such code, here.
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 from boundary_element import friction_coefficient
@@ -13,6 +15,7 @@ from whole_road import CAMPAIGN, ROAD, pinned, random_phases, shifted, whole_sce
 
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.simulation import evaluate, simulate, solve
+from rubfric.studies.accuracy.calibration import COVERAGE
 from rubfric.studies.accuracy.converged import converge
 
 VELOCITIES = (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 1e4)  # mm/s
@@ -93,16 +96,16 @@ def test_stated_error_covers_the_difference_to_a_mesh_twice_as_fine(velocity: fl
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize("plane", ["strain", "stress"])
-@pytest.mark.parametrize("pressure", [0.2, 1.0, 3.0])
-@pytest.mark.parametrize("velocity", [0.1, 10.0, 100.0, 1000.0, 1e4])
-def test_stated_error_covers_the_difference_to_the_limit_of_three_meshes(
-    velocity: float, pressure: float, plane: str
-) -> None:
-    solution = solve(whole_scene(velocity, pressure, plane=plane))
-    reference = converge(solution.scene)
-    assert abs(solution.friction.stress_power - reference.friction) <= friction_error(solution)
-    assert reference.error <= friction_error(solution)
+def test_stated_error_covers_the_difference_to_the_limit_of_three_meshes() -> None:
+    covered = []
+    for velocity, pressure, plane in product((0.1, 10.0, 100.0, 1000.0, 1e4), (0.2, 1.0, 3.0), ("strain", "stress")):
+        solution = solve(whole_scene(velocity, pressure, plane=plane))
+        reference, stated = converge(solution.scene), friction_error(solution)
+        error = abs(solution.friction.stress_power - reference.friction)
+        assert error <= min(2.0 * stated, 0.01 * reference.friction)
+        assert reference.error <= stated
+        covered.append(error <= stated)
+    assert np.mean(covered) >= COVERAGE
 
 
 @pytest.mark.parametrize("plane", ["strain", "stress"])

@@ -12,7 +12,7 @@ function roadWords(data) {
 /** Why the whole road has no friction there, in two words. */
 function whyNot(data, pressure, speed) {
   const reason = data.refusals?.[pressure][speed];
-  return !reason ? "not run" : reason.startsWith("not needed") ? "not needed" : "refused";
+  return !reason ? "not run" : reason.startsWith("not solved") ? "not solved" : "refused";
 }
 
 /** How the total was obtained and what its error covers. */

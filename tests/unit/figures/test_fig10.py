@@ -18,7 +18,7 @@ from rubfric.figures.totals import WAYS
 
 Maker = Callable[..., xr.Dataset]
 TableMaker = Callable[..., pd.DataFrame]
-SHARES = {"direct": 0.7, "sum": 1.0, "cascade": 0.9, "persson": 0.8}
+SHARES = {"direct": 0.7, "sum": 1.0, "corrected": 0.75, "cascade": 0.9, "persson": 0.8}
 
 
 def curves(panel: Axes) -> dict[str, Any]:
@@ -75,7 +75,7 @@ def test_without_direct_totals_the_estimates_are_drawn(
     table = make_totals(campaign)
     table["friction_direct"], table["way"] = np.nan, "sum"
     figure = fig10.draw(table, [5.0, 5.0])
-    assert set(curves(figure.axes[0])) == {WAYS[way] for way in ("sum", "cascade", "persson")}
+    assert set(curves(figure.axes[0])) == {WAYS[way] for way in ("sum", "corrected", "cascade", "persson")}
     assert not any("not solved" in one or "error" in one for one in words(figure))
     assert len(figure.axes) == 1
 
