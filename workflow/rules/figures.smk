@@ -27,8 +27,8 @@ SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
     if name == f"{DRAW}{scene.name}"
-    and scene.pressure in SHOWN.pressures[:2]
-    and scene.velocity in SHOWN.velocities[-3:]
+    and scene.pressure in sorted(SHOWN.pressures)[:2]
+    and scene.velocity in sorted(SHOWN.velocities)[-3:]
 }
 # Made before Snakemake looks for them: of files that appear while it does it would know nothing.
 DRAWN_BY = {
