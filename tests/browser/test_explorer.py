@@ -210,7 +210,7 @@ def test_total_stands_beside_the_sum_of_the_scales(browser: WebDriver, whole: An
     assert compared["y"][2] == pytest.approx(sum(parts), rel=1e-7)
     errors = [whole.at("friction_coefficient_error", scale, 1000.0, 0.5) for scale in (1, 2)]
     wanted = [*zip(parts, errors, strict=True)]
-    for way in ("sum", "cascade", "persson", "direct"):
+    for way in ("sum", "corrected", "cascade", "persson", "direct"):
         wanted.append((row[f"friction_{way}"], row[f"friction_{way}_error"]))
     found = [one[0] for one in MEASURED.finditer(words(browser, "numbers"))]
     for text, (friction, error) in zip(found, [*wanted, wanted[-1]], strict=True):
