@@ -189,7 +189,7 @@ class Campaign:
     def whole_parameters(self) -> dict[str, Any]:
         """Return what the total over the scales depends on besides results, as plain values.
 
-        Those of ``rubfric.results.totals.WholeRoad``. Scales without a common period, of which no whole road is
+        Those of ``rubfric.results.whole_road.WholeRoad``. Scales without a common period, of which no whole road is
         simulated, are judged by the nearest that have one.
         """
         roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]

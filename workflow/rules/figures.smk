@@ -42,7 +42,7 @@ FIGURE_WORDS = {
     "fig4": "the deformed block",
     "fig6": "friction over speed and pressure",
     "fig7": "friction of the whole road",
-    "fig10": "four ways to the friction of the whole road",
+    "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
 }
 RIG_FIGURES = ["fig8", "fig9"]

@@ -14,7 +14,7 @@ def whole_files(wildcards):
 
 
 # What decides whether a scene of the whole road is needed.
-CHOOSING = ["rubfric.results.totals"] if CAMPAIGN.multiscale.way == "auto" else []
+CHOOSING = ["rubfric.results.whole_road"] if CAMPAIGN.multiscale.way == "auto" else []
 # Other scenes, another name, as for the collection of the scales.
 WHOLE_MARK = (
     f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}"
@@ -56,7 +56,7 @@ rule whole_collection:
     output:
         report(
             f"{RESULTS}/whole.nc",
-            caption="../report/campaign.rst",
+            caption="../report/whole.rst",
             category=REPORT.fields,
             labels={"data": "scalars of every scene of the whole road (netCDF)"},
         ),

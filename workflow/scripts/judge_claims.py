@@ -10,7 +10,7 @@ from rubfric.results.campaign import read
 from rubfric.results.dataset import load
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table
-from rubfric.results.totals import WholeRoad
+from rubfric.results.whole_road import WholeRoad
 from rubfric.studies.paper.judge import Criteria, judge
 from rubfric.studies.paper.verdicts import EVERY
 

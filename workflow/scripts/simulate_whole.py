@@ -7,7 +7,7 @@ from rubfric.results.dataset import write
 from rubfric.results.provenance import refusal
 from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.summary import summary
-from rubfric.results.totals import WholeRoad
+from rubfric.results.whole_road import WholeRoad
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 

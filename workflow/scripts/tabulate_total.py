@@ -7,7 +7,8 @@ from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
 from rubfric.results.scales import WAYS
 from rubfric.results.tables import write_table
-from rubfric.results.totals import WholeRoad, total_table
+from rubfric.results.totals import total_table
+from rubfric.results.whole_road import WholeRoad
 
 
 def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str, Any]) -> None:

@@ -11,7 +11,8 @@ import xarray as xr
 
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.results.scales import TOTAL
-from rubfric.results.totals import WholeRoad, total_table
+from rubfric.results.totals import total_table
+from rubfric.results.whole_road import WholeRoad
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note, rig_evidence, rig_note
 from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table

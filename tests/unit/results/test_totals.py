@@ -18,7 +18,8 @@ from rubfric.errors import BrokenResult, NotConverged
 from rubfric.mechanics.theory.coupling import Coupling
 from rubfric.results.scales import WAYS
 from rubfric.results.selection import NOT_NEEDED
-from rubfric.results.totals import WholeRoad, total_table
+from rubfric.results.totals import total_table
+from rubfric.results.whole_road import WholeRoad
 
 VELOCITIES, PRESSURES = (1.0, 100.0), (0.5, 5.0)
 AXES = ("scale", "velocity", "pressure", "aspect")

@@ -1,0 +1,81 @@
+"""By which way the friction of a road is found: all scales at once, or cheaper where that is accurate enough."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rubfric.errors import NotConverged
+from rubfric.mechanics.theory.coupling import Coupling, estimate
+from rubfric.mechanics.theory.layer import full_contact_pressure
+from rubfric.road.waves import WaveRoad
+from rubfric.rubber.material import Material
+
+# Contact fraction beyond which the whole road takes minutes in finite strain.
+_MOST_CONTACT = 0.22
+
+
+@dataclass(frozen=True)
+class WholeRoad:
+    """What the friction of the whole road depends on besides the results of scenes.
+
+    Attributes
+    ----------
+    way : {"sum", "corrected", "cascade", "persson", "direct", "auto"}
+        By which it is asked for.
+    accuracy : float
+        Relative; what ``auto`` asks of the coupling.
+    material : Material
+    plane : {"stress", "strain"}
+    kinematics : {"small", "finite", "auto"}
+    aspect : float
+        Height over width of the blocks on the scales.
+    height : float
+        Of the block on the whole road, mm.
+    roads : tuple of WaveRoad
+        The road, or those with random phases.
+    """
+
+    way: str
+    accuracy: float
+    material: Material
+    plane: str
+    kinematics: str
+    aspect: float
+    height: float
+    roads: tuple[WaveRoad, ...]
+
+    @classmethod
+    def from_parameters(cls, parameters: Mapping[str, Any]) -> WholeRoad:
+        """Return it from plain values, as ``Campaign.whole_parameters`` gives them."""
+        roads = tuple(WaveRoad(**{name: tuple(of) for name, of in road.items()}) for road in parameters["roads"])
+        return cls(**dict(parameters) | {"material": Material(**parameters["material"]), "roads": roads})
+
+    def couplings(self, velocity: float, pressure: float) -> list[Coupling]:
+        """Return what the scales of each road do to one another at a speed (mm/s) and a pressure (MPa)."""
+        about = (velocity, pressure, self.height, self.plane, self.kinematics)
+        return [estimate(self.material, road, *about) for road in self.roads]
+
+    def cheapest(self, velocity: float, pressure: float) -> str:
+        """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
+
+        In finite strain it is the corrected sum where no way is, and much of the road is in contact: the whole road
+        would take minutes there.
+        """
+        try:
+            ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+        except NotConverged:
+            return "direct"
+        way = ways.pop() if len(ways) == 1 else "direct"
+        dear = self.kinematics != "small" and self._contact(velocity, pressure) > _MOST_CONTACT
+        return "corrected" if way == "direct" and dear else way
+
+    def _contact(self, velocity: float, pressure: float) -> float:
+        """Return Persson's contact fraction of the whole road, erf(p / p*)."""
+        about = (velocity, self.height, self.plane)
+        return max(
+            math.erf(pressure / full_contact_pressure(self.material, road, *about)) if road.steepest_slope else 1.0
+            for road in self.roads
+        )
