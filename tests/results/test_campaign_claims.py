@@ -17,7 +17,7 @@ VERDICTS = {
     "C6": "holds",
     "C7": "holds",
     "C8": "holds (simulated)",
-    "C9": "holds in part",
+    "C9": "does not hold",
 }
 
 

@@ -108,6 +108,7 @@ def test_stated_error_covers_the_difference_to_the_limit_of_three_meshes() -> No
     assert np.mean(covered) >= COVERAGE
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("plane", ["strain", "stress"])
 def test_three_routes_agree_over_the_grid(plane: str) -> None:
     for velocity in VELOCITIES:

@@ -10,6 +10,8 @@ from whole_road import ROAD, pinned, scaled, whole_scene
 
 from rubfric.simulation import solve
 
+pytestmark = pytest.mark.thorough
+
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 LOADS = pytest.mark.parametrize(("velocity", "pressure"), [(1000.0, 5.0), (10.0, 0.5)])
 

@@ -74,6 +74,7 @@ def answer(scene: Scene) -> tuple[float, float] | None:
     return friction, error
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("slope", [0.3, 3.0])
 @pytest.mark.parametrize(("velocity", "pressure"), [(1e-3, 0.2), (100.0, 0.5), (1e4, 10.0)])
 def test_of_64_random_waves_no_number_is_wrong(slope: float, velocity: float, pressure: float) -> None:

@@ -16,6 +16,8 @@ from rubfric.scene.procedure import PHASES, Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import solve
 
+pytestmark = pytest.mark.thorough
+
 # Columns of cells, and steps for each finest wave: where a tenth of it is touched, steps must be shorter than that.
 COARSE, FINE = (1024, 32), (3072, 64)
 SHARE = 0.0625
