@@ -1,4 +1,4 @@
-"""Figure 10: four ways from the scales of a road to its friction, over speed, at a light and a heavy load."""
+"""Figure 10: five ways from the scales of a road to its friction, over speed, at a light and a heavy load."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ _NONE = 1e-9
 
 @dataclass(frozen=True)
 class Coupling:
-    """The total friction coefficient of a road by four ways, in small strain on the closed-form layer.
+    """The total friction coefficient of a road by several ways, in small strain on the closed-form layer.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ def estimate(
     plane: str,
     kinematics: str = "finite",
 ) -> Coupling:
-    """Return the total friction by four ways.
+    """Return the total friction by several ways.
 
     Parameters
     ----------

@@ -132,7 +132,7 @@ function showWords() {
   byId("peak").textContent = peakWords(curve, pressure, data.pressures, data.speeds);
   byId("marks").textContent = marksWords(curve, chosen, data);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
-  byId("numbers-title").textContent = place === "total" ? "The scales, and four ways to the total" : "The numbers of this scene";
+  byId("numbers-title").textContent = place === "total" ? "The scales, and five ways to the total" : "The numbers of this scene";
   const none = sentence(place === "whole" ? whyNot(data, pressure, speed) : "not run").slice(0, -1);
   byId("covers").textContent = place === "total" ? coversTotal(data, chosen) : coversScene(data, chosen, data.scenes[place][pressure][speed]);
   byId("headline").replaceChildren(friction === null ? none : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
