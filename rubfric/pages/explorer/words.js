@@ -104,6 +104,6 @@ function marksWords(curve, { view, place, pressure }, data) {
   const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
   const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
   const sum = place === "total" && view === "curves" ? `Dashed: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
-  const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was refused there." : "";
+  const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was not solved at once there." : "";
   return [rings ? mark : "", error, sum, crossed].filter(Boolean).join(" ");
 }
