@@ -37,6 +37,7 @@ def test_flat_road_has_no_friction(plane: str) -> None:
     assert float(result["contact_fraction"]) == 1.0
 
 
+@pytest.mark.thorough
 @PLANES
 def test_friction_falls_with_the_speed_below_all_relaxation_and_with_its_inverse_above(plane: str) -> None:
     slow = [solve(whole_scene(v, 1.0, plane=plane)).friction.stress_power for v in (1e-5, 1e-4)]

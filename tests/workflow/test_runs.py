@@ -38,6 +38,7 @@ def test_added_velocity_adds_its_rows_and_leaves_the_rest(template: Project, pro
     assert project.plan("tables").jobs == {}
 
 
+@pytest.mark.thorough
 def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, template: Project) -> None:
     name = "scale3_v1_p0.5_aspect0.75_stress"
     damaged = project.scene_files[name]
