@@ -115,7 +115,9 @@ def pictures(figure, caption, shows, category=REPORT.figures):
         def described(wildcards):
             name = figure.format(**dict(wildcards.items()))
             words = shows(wildcards) if callable(shows) else shows
-            if name.startswith("fig"):  # the report sorts by words: a figure space puts Fig. 2 before Fig. 10
+            if name.startswith(
+                "fig"
+            ):  # the report sorts by words: a figure space puts Fig. 2 before Fig. 10
                 name = f"Fig. {name.removeprefix('fig').rjust(2, chr(0x2007))}"
             return {"figure": name, "shows": words, "as": form}
 
