@@ -100,6 +100,16 @@ def scene_files(wildcards):
     return [scene_file(name) for name in SCENES]
 
 
+def whole_file(name):
+    """Return where the result of a scene of the whole road belongs."""
+    return f"{RESULTS}/whole/{RUBBER}/{ROAD}/{name}.nc"
+
+
+def whole_files(wildcards):
+    """Return the results of all scenes of the whole road; a function, since only some runs need to know."""
+    return [whole_file(name) for name in WHOLE]
+
+
 def march_file(name):
     """Return where the march of a scene belongs."""
     return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"

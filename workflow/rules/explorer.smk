@@ -27,11 +27,14 @@ rule explorer:
     log:
         f"{RESULTS}/logs/explorer.log",
     params:
-        aspect=CAMPAIGN.aspect,
-        road=ROAD,
-        digests=[
-            scene.digest for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
-        ],
+        about={
+            "aspect": CAMPAIGN.aspect,
+            "road": ROAD,
+            "digests": [
+                scene.digest
+                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+            ],
+        },
     message:
         "The campaign to explore in a browser: {output}"
     run:
@@ -43,7 +46,5 @@ rule explorer:
             table=input.table,
             whole=list(input.whole),
             scenes=list(input.scenes),
-            digests=params.digests,
-            aspect=params.aspect,
-            road=params.road,
+            **params.about,
         )

@@ -1,18 +1,6 @@
 # The whole road, all scales at once: one job per scene, as for a scale, except that a scene that is refused leaves a file
 # that says why, and the campaign goes on. With random phases every draw has a folder of its own.
 WHOLE = CAMPAIGN.whole_scenes()
-
-
-def whole_file(name):
-    """Return where the result of a scene of the whole road belongs."""
-    return f"{RESULTS}/whole/{RUBBER}/{ROAD}/{name}.nc"
-
-
-def whole_files(wildcards):
-    """Return the results of all scenes of the whole road; a function, since only some runs need to know."""
-    return [whole_file(name) for name in WHOLE]
-
-
 # What decides whether a scene of the whole road is needed.
 CHOOSING = ["rubfric.results.whole_road"] if CAMPAIGN.multiscale.way == "auto" else []
 # Other scenes, another name, as for the collection of the scales.
