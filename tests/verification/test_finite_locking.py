@@ -74,7 +74,7 @@ def test_mesh_errs_no_more_than_at_the_papers_ratio(slide, velocity: float, pres
 def test_newton_takes_no_more_steps(slide, velocity: float, pressure: float, poisson: float) -> None:
     near, paper = (slide(velocity, pressure, ratio) for ratio in (poisson, PAPER))
     assert near.iterations <= paper.iterations + 2
-    assert near.krylov <= 2.0 * paper.krylov  # contact sets differ, and with them their number
+    assert near.krylov <= 1.5 * paper.krylov  # 1.37 at 1000 mm/s, 2 MPa; 0.77 to 0.89 at the other points
 
 
 @POINTS
