@@ -230,7 +230,7 @@ def test_refused_total_is_crossed_and_says_what_its_error_covers(browser: WebDri
     assert said.startswith("Sum of the scales. ± covers mesh and solver")
     assert "coupling of the scales" in said
     assert "No solution." in said
-    assert "refused there" in words(browser, "marks")
+    assert "not solved at once there" in words(browser, "marks")
     assert "refused" in words(browser, "numbers")
     crosses = traces(browser, "chart")[-1]
     assert (crosses["x"], crosses["y"]) == ([10000.0], pytest.approx([row["friction_sum"]], rel=1e-7))
