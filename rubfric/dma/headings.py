@@ -27,8 +27,10 @@ _USUAL = {
 _TENSION = re.compile(r"(^|[^a-z])e('|\*| ?_?(stor|loss|complex|prime))|young|tensile|tension|elongation|flexural")
 _SHEAR = re.compile(r"(^|[^a-z])g('|\*| ?_?(stor|loss|complex|prime))|shear")
 # What may be measured together: the two moduli follow from any of these.
-_PAIRS = (("storage", "loss"), ("storage", "tan_delta"), ("complex", "tan_delta"), ("storage", "phase"))
-_PAIRS += (("complex", "phase"), ("loss", "tan_delta"))
+_PAIRS = (
+    *(("storage", "loss"), ("storage", "tan_delta"), ("complex", "tan_delta")),
+    *(("storage", "phase"), ("complex", "phase"), ("loss", "tan_delta")),
+)
 
 
 def recognise(
@@ -68,7 +70,7 @@ def recognise(
             found[quantity] = [
                 i for i, name in enumerate(names) if re.fullmatch(usual, name) and headings[i].strip() not in taken
             ]
-    wanted = ["frequency"] if master else ["frequency", "temperature"]
+    needed = ["frequency"] if master else ["frequency", "temperature"]
     pair = next((pair for pair in _PAIRS if all(found[name] for name in pair)), None)
     if pair is None:
         raise InvalidInput(
@@ -76,10 +78,10 @@ def recognise(
             f"complex modulus and its phase; its columns are {_listed(headings)}: name them under columns in the YAML "
             "file of --columns"
         )
-    for quantity in (*wanted, *pair):
+    for quantity in (*needed, *pair):
         hint = ", or say --master if it is a master curve" if quantity == "temperature" and not found[quantity] else ""
         _check_one(path, quantity, headings, found[quantity], "that may be", hint)
-    places = {quantity: found[quantity][0] for quantity in (*wanted, *pair)}
+    places = {quantity: found[quantity][0] for quantity in (*needed, *pair)}
     for quantity, place in places.items():
         if list(places.values()).count(place) > 1:
             raise InvalidInput(f"{path} has one column, {headings[place]!r}, for {quantity} and another quantity")

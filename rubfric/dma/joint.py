@@ -8,17 +8,21 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from rubfric.arrays import Real
-from rubfric.dma.laws import Law
+from rubfric.dma.laws import LN10, Law
 from rubfric.dma.measurements import Measurements
 from rubfric.dma.spectrum import Spectrum, grid, solve
 from rubfric.rubber.shift import KELVIN
 
-# Branches a decade, and decades beyond the window, while shifts are looked for.
-_COARSE, _COARSE_MARGIN = 2.0, 0.5
+# Branches a decade while shifts are looked for.
+COARSE = 2.0
+# Decades beyond the window in which a branch may lie: the nearest of them still show at its end.
+MARGIN = 0.5
 # Starts that are followed to their end.
 _FOLLOWED = 3
 # Largest |ln b_T|: moduli do not double by a change of temperature alone.
 _LARGEST_SCALE = 0.7
+# How often the steps of free shifts are gone through, and by how many decades each is changed.
+_SWEEPS, _CHANGES = 6, (-2.0, -1.0, -0.4, 0.4, 1.0, 2.0, 3.0)
 # How far a relaxation time may move, in ln tau.
 _FARTHEST = 1.5
 
@@ -71,9 +75,17 @@ class Joint:
 
     @property
     def shifts(self) -> Real:
-        """Return ln a_T of the isotherms."""
-        count = self.law.bounds[0].size
-        return self.law.shifts(self.parameters[:count])
+        """Shifts ln a_T of the isotherms."""
+        return self.law.shifts(self.parameters[: self.law.bounds[0].size])
+
+    def scales(self, temperatures: Real) -> Real:
+        """Return ln b_T of the isotherms, whose temperatures are given in degC."""
+        return scales_of(self.vertical, temperatures, self.reference, own_parameters(self)[self.law.bounds[0].size :])
+
+
+def own_parameters(joint: Joint) -> Real:
+    """Return the parameters of law and scales, without relaxation times."""
+    return joint.parameters[: len(joint.parameters) - (len(joint.times) if joint.moving else 0)]
 
 
 def scales_of(vertical: str, temperatures: Real, reference: float, own: Real) -> Real:
@@ -109,6 +121,19 @@ def window(data: Measurements, shifts: Real) -> tuple[float, float]:
     return float(np.exp(reduced.min())), float(np.exp(reduced.max()))
 
 
+def times_window(data: Measurements, shifts: Real) -> tuple[float, float]:
+    """Return ln of the shortest and the longest relaxation time that the data can tell of: the window and a margin.
+
+    Parameters
+    ----------
+    data : Measurements
+    shifts : ndarray, shape (isotherms,)
+        ln a_T.
+    """
+    low, high = window(data, shifts)
+    return -float(np.log(high)) - MARGIN * LN10, -float(np.log(low)) + MARGIN * LN10
+
+
 def follow(
     data: Measurements,
     law: Law,
@@ -141,9 +166,11 @@ def follow(
     nearest = int(np.argmin(np.abs(temperatures - reference))) if vertical == "free" else 0
     free = len(start) - count
     which = np.delete(np.eye(len(temperatures)), nearest, axis=1)
-    own = np.log(times)
-    low = np.concatenate((law.bounds[0], np.full(free, -_LARGEST_SCALE), own - _FARTHEST if moving else []))
-    high = np.concatenate((law.bounds[1], np.full(free, _LARGEST_SCALE), own + _FARTHEST if moving else []))
+    shortest, longest = times_window(data, law.shifts(start[:count]))
+    own = np.clip(np.log(times), shortest, longest) if moving else np.log(times)
+    slow, fast = np.minimum(own + _FARTHEST, longest), np.maximum(own - _FARTHEST, shortest)
+    low = np.concatenate((law.bounds[0], np.full(free, -_LARGEST_SCALE), fast if moving else []))
+    high = np.concatenate((law.bounds[1], np.full(free, _LARGEST_SCALE), slow if moving else []))
     both = np.concatenate((data.isotherm, data.isotherm))
     last: tuple[Real, Spectrum] | None = None
 
@@ -165,7 +192,7 @@ def follow(
         return found.project(np.column_stack(columns))
 
     start = np.concatenate((start, own)) if moving else start
-    start = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
+    start = np.clip(start, low + 1e-6 * (high - low), high - 1e-6 * (high - low))
     if start.size:
         start = least_squares(
             lambda parameters: at(parameters).residuals,
@@ -173,10 +200,10 @@ def follow(
             jacobian,
             bounds=(low, high),
             x_scale="jac",
-            ftol=1e-7,
-            xtol=1e-7,
-            gtol=1e-10,
-            max_nfev=60,
+            ftol=1e-8,
+            xtol=1e-8,
+            gtol=1e-12,
+            max_nfev=80,
         ).x
     found = np.exp(start[count + free :]) if moving else times
     return Joint(law, vertical, reference, start, found, at(start), jacobian(start), moving)
@@ -200,7 +227,7 @@ def search(data: Measurements, law: Law, vertical: str, reference: float, static
     tried = []
     for start in law.starts:
         shifts = law.shifts(start)
-        times = grid(*window(data, shifts), _COARSE, _COARSE_MARGIN)
+        times = grid(*window(data, shifts), COARSE, MARGIN)
         if len(times) <= len(data.storage):
             residuals = solve(data, times, shifts, scales, static).residuals
             tried.append((float(residuals @ residuals), start))
@@ -209,11 +236,45 @@ def search(data: Measurements, law: Law, vertical: str, reference: float, static
     for _, start in best:
         whole = np.concatenate((start, np.zeros(free)))
         for _ in range(2):  # times follow the window, which follows the shifts
-            times = grid(*window(data, law.shifts(whole[: len(start)])), _COARSE, _COARSE_MARGIN)
+            times = grid(*window(data, law.shifts(whole[: len(start)])), COARSE, MARGIN)
             joint = follow(data, law, vertical, reference, whole, times, static)
             whole = joint.parameters
         found.append(joint)
     return min(found, key=lambda joint: joint.cost)
+
+
+def unstick(data: Measurements, joint: Joint, static: float | None) -> Joint:
+    """Fit again with each step of free shifts longer or shorter in turn, while that lowers the cost.
+
+    A step may be caught where a branch of one isotherm meets the next branch of its neighbour.
+
+    Parameters
+    ----------
+    data : Measurements
+    joint : Joint
+        Its law is free.
+    static : float, optional
+        Static modulus, MPa, where it is known.
+    """
+    count = joint.law.bounds[0].size
+    for _ in range(_SWEEPS):
+        parameters, best = joint.parameters.copy(), joint.cost
+        for step in range(count):
+            for change in _CHANGES:
+                tried = parameters.copy()
+                tried[step] = max(tried[step] + change * LN10, 0.0)
+                scales = scales_of(joint.vertical, data.temperatures, joint.reference, tried[count:])
+                shifts = joint.law.shifts(tried[:count])
+                times = grid(*window(data, shifts), COARSE, MARGIN)
+                residuals = solve(data, times, shifts, scales, static).residuals
+                if float(residuals @ residuals) < 0.98 * best:
+                    parameters, best = tried, float(residuals @ residuals)
+        times = grid(*window(data, joint.law.shifts(parameters[:count])), COARSE, MARGIN)
+        again = follow(data, joint.law, joint.vertical, joint.reference, parameters, times, static)
+        if again.cost > 0.98 * joint.cost:
+            return min(joint, again, key=lambda each: each.cost)
+        joint = again
+    return joint
 
 
 def refine(data: Measurements, joint: Joint, per_decade: float, margin: float, static: float | None) -> Joint:
@@ -231,7 +292,7 @@ def refine(data: Measurements, joint: Joint, per_decade: float, margin: float, s
         Static modulus, MPa, where it is known.
     """
     times = grid(*window(data, joint.shifts), per_decade, margin)
-    start = joint.parameters[: len(joint.parameters) - (len(joint.times) if joint.moving else 0)]
+    start = own_parameters(joint)
     return follow(data, joint.law, joint.vertical, joint.reference, start, times, static)
 
 
@@ -269,5 +330,5 @@ def repeat(data: Measurements, joint: Joint, static: float | None) -> Joint:
     static : float, optional
         Static modulus, MPa, where it is known.
     """
-    start = joint.parameters[: len(joint.parameters) - (len(joint.times) if joint.moving else 0)]
+    start = own_parameters(joint)
     return follow(data, joint.law, joint.vertical, joint.reference, start, joint.times, static, joint.moving)

@@ -199,7 +199,8 @@ def ordered(
             "far the temperature strays within one"
         )
     order = np.lexsort((frequency, group))
-    group, frequency, storage, loss = (values[order] for values in (group, frequency, storage, loss))
+    group = group[order]
+    frequency, storage, loss = (values[order] for values in (frequency, storage, loss))
     same = (np.diff(group) == 0) & (np.diff(frequency) <= 1e-6 * frequency[1:])
     point = np.concatenate(([0], np.cumsum(~same)))
     doubles = len(point) - 1 - int(point[-1])
