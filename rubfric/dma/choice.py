@@ -18,6 +18,10 @@ from rubfric.dma.measurements import Measurements
 _DENSITIES = (2.0, 3.0, 4.0)
 # By how much the criterion of evenly spaced branches has to be better than that of fewer ones: decisive evidence.
 _DECISIVE = 10.0
+# Decades by which the halves of a split branch are moved apart, and the least gain of the criterion.
+_APART, _LEAST_GAIN = 0.25, 1.0
+# Beyond so many branches none is split: continuous spectra need no more, and it takes long.
+_MOST_SPLIT = 20
 
 
 def choose_branches(data: Measurements, joint: Joint, static: float | None, per_decade: float | None) -> Joint:
@@ -39,6 +43,7 @@ def choose_branches(data: Measurements, joint: Joint, static: float | None, per_
     even = [refine(data, joint, density, MARGIN, static) for density in _DENSITIES]
     few = [_thinned(data, merge(data, dense, static), static) for dense in even]
     dense, sparse = (min(fits, key=lambda each: each.bic) for fits in (even, few))
+    sparse = _split(data, sparse, static)
     return dense if dense.bic < sparse.bic - _DECISIVE else sparse
 
 
@@ -57,6 +62,22 @@ def _thinned(data: Measurements, joint: Joint, static: float | None) -> Joint:
         if fewer is None:
             return joint
         joint = fewer
+    return joint
+
+
+def _split(data: Measurements, joint: Joint, static: float | None) -> Joint:
+    """Return the fit with branches split in two, one at a time, while the criterion asks for it."""
+    best = joint
+    while len(joint.times) <= _MOST_SPLIT:
+        for branch in range(len(joint.times)):
+            pair = joint.times[branch] * np.array([10.0**-_APART, 10.0**_APART])
+            times = np.concatenate((np.delete(joint.times, branch), pair))
+            start = own_parameters(joint)
+            tried = follow(data, joint.law, joint.vertical, joint.reference, start, times, static, moving=True)
+            best = min(best, tried, key=lambda each: each.bic)
+        if best.bic >= joint.bic - _LEAST_GAIN:
+            break
+        joint = best
     return joint
 
 

@@ -207,30 +207,35 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
 
     fits = lawful_fits(data)
     # Outliers are those of free shifts: a law that fails leaves large residuals where nothing is wrong with the data.
-    free = _free(data, fits, vertical, reference, static)
+    count, free = len(data.storage), _free(data, fits, vertical, reference, static)
     cleaned = without_resonance(data, free.spectrum.residuals)
     if len(cleaned.storage) < len(data.storage):
         data, free = cleaned, refine(cleaned, free, COARSE, MARGIN, static)
     cleaned = without_outliers(data, free.spectrum.residuals)
     if len(cleaned.storage) < len(data.storage):
-        free = refine(cleaned, free, COARSE, MARGIN, static)
-    data = cleaned
-    fits = lawful_fits(data)
-    deviations = {name: deviation(data, joint, static) for name, joint in fits.items()}
-    said = {name: failure(data, fits[name], found) for name, found in deviations.items()}
-    warnings = []
+        data = cleaned
+    fits = fits if len(data.storage) == count else lawful_fits(data)
+    deviations: dict[str, Deviation] = {}
+    for name in names:
+        deviations[name] = deviation(data, fits[name], static)
+        if name == options.law or not deviations[name].hopeless:
+            fits[name] = choose_branches(data, fits[name], static, options.per_decade)
+            deviations[name] = deviation(data, fits[name], static)
+    said = {name: failure(data, fits[name], found, free) for name, found in deviations.items()}
     holds = [name for name in names if not said[name]]
+    warnings = []
     if options.law in fits:
-        chosen = fits[options.law]
+        joint = fits[options.law]
         warnings += [f"{said[options.law]}; its shifts were taken all the same, as asked"] if said[options.law] else []
     elif options.law == "auto" and holds:
-        chosen = min((fits[name] for name in holds), key=lambda joint: joint.bic)
+        joint = min((fits[name] for name in holds), key=lambda each: each.bic)
     else:
         check_overlap(data)
-        chosen = unstick(data, _free(data, fits, vertical, reference, static), static)
-        warnings += [f"{words}" for words in said.values() if words]
+        joint = unstick(data, _free(data, fits, vertical, reference, static), static)
+        joint = choose_branches(data, joint, static, options.per_decade)
+        warnings += [words for words in said.values() if words]
         warnings += ["free shifts were taken, which cannot be extrapolated beyond the measured temperatures"]
-    joint = without_idle(choose_branches(data, chosen, static, options.per_decade))
+    joint = without_idle(joint)
     warnings += check_gaps(data, joint.shifts) if joint.law.name != "free" else []
     return assembled(data, options, reference, joint, deviations, warnings)
 

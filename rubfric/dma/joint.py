@@ -15,8 +15,10 @@ from rubfric.rubber.shift import KELVIN
 
 # Branches a decade while shifts are looked for.
 COARSE = 2.0
-# Decades beyond the window in which a branch may lie: the nearest of them still show at its end.
-MARGIN = 0.5
+# Decades beyond the window in which a branch may lie, since the slope of its moduli still shows at the end.
+MARGIN = 1.0
+# Most branches while starts are compared.
+_MOST_BRANCHES = 200
 # Starts that are followed to their end.
 _FOLLOWED = 3
 # Largest |ln b_T|: moduli do not double by a change of temperature alone.
@@ -228,7 +230,7 @@ def search(data: Measurements, law: Law, vertical: str, reference: float, static
     for start in law.starts:
         shifts = law.shifts(start)
         times = grid(*window(data, shifts), COARSE, MARGIN)
-        if len(times) <= len(data.storage):
+        if len(times) <= _MOST_BRANCHES:
             residuals = solve(data, times, shifts, scales, static).residuals
             tried.append((float(residuals @ residuals), start))
     best = sorted(tried, key=lambda pair: pair[0])[:_FOLLOWED]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Real
-from rubfric.dma.joint import Joint, own_parameters, search
+from rubfric.dma.joint import Joint, follow, own_parameters
 from rubfric.dma.laws import LN10, Free
 from rubfric.dma.measurements import Measurements
 from rubfric.errors import InvalidInput
@@ -16,8 +16,14 @@ from rubfric.errors import InvalidInput
 # Widest gap of reduced frequencies, decades, that a law may bridge.
 _WIDEST_GAP = 1.0
 # A law fails at an isotherm that is off by more than so many standard errors, and by more than an error of the
-# temperature of 1 K or 0.05 decades explains.
-_ERRORS, _KELVINS, _DECADES = 3.0, 1.0, 0.05
+# temperature of 1 K or 0.1 decades explains.
+_ERRORS, _KELVINS, _DECADES = 3.0, 1.0, 0.1
+# Deviation, in terms of what is allowed, that coarse branches cannot cause.
+_HOPELESS = 4.0
+# Residuals of a law over those of coarse free shifts, at most.
+_WORSE = 1.4
+# Most temperatures that are named one by one.
+_MOST_NAMED = 5
 # Largest C2, K, that data can tell from a straight line.
 _LARGEST_C2 = 3e3
 
@@ -38,6 +44,11 @@ class Deviation:
     errors: Real
     allowed: Real
     free: Joint
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether the law is off by so much that no other choice of branches can save it."""
+        return bool((np.abs(self.decades) > _HOPELESS * self.allowed).any())
 
     @property
     def fails(self) -> np.ndarray:
@@ -112,9 +123,9 @@ def check_overlap(data: Measurements) -> None:
         if softest > 1.02 * stiffest:
             raise InvalidInput(
                 f"{data.source} has isotherms that do not overlap: the storage modulus is at least {softest:.4g} MPa "
-                f"at {data.temperatures[one]:.4g} degC and at most {stiffest:.4g} MPa at {data.temperatures[one + 1]:.4g} "
-                "degC; measure a temperature between, or more frequencies, or say --law wlf or arrhenius, which bridge "
-                "a small gap"
+                f"at {data.temperatures[one]:.4g} degC and at most {stiffest:.4g} MPa at "
+                f"{data.temperatures[one + 1]:.4g} degC; measure a temperature between, or more frequencies, or say "
+                "--law wlf or arrhenius, which bridge a small gap"
             )
 
 
@@ -141,7 +152,8 @@ def check_gaps(data: Measurements, shifts: Real) -> list[str]:
     if gaps[widest] > _WIDEST_GAP:
         raise InvalidInput(
             f"{data.source} has nothing within {gaps[widest]:.2g} decades of reduced frequency between {pair}, but a "
-            f"law of shifting bridges at most {_WIDEST_GAP:g}: measure a temperature between, or more frequencies"
+            f"law of shifting bridges at most {_WIDEST_GAP:g}: measure a temperature between, or leave out those "
+            "on one side"
         )
     return [f"no data in {gaps[widest]:.2g} decades of reduced frequency between {pair}"] if gaps[widest] > 0.1 else []
 
@@ -156,10 +168,13 @@ def deviation(data: Measurements, lawful: Joint, static: float | None) -> Deviat
     static : float, optional
         Static modulus, MPa, where it is known.
     """
-    free = search(data, Free(lawful.shifts[None]), lawful.vertical, lawful.reference, static)
+    law = Free(lawful.shifts[None])
+    start = np.concatenate((law.starts[0], own_parameters(lawful)[lawful.law.bounds[0].size :]))
+    times = lawful.times * np.exp(lawful.shifts[0])  # free shifts count from the coldest isotherm
+    free = follow(data, law, lawful.vertical, lawful.reference, start, times, static, moving=lawful.moving)
     own = free.jacobian[:, : len(data.temperatures) - 1]
     rest = free.jacobian[:, own.shape[1] :]
-    if rest.size:  # scales are fitted too, and widen the errors
+    if rest.size:  # scales and times are fitted too, and widen the errors
         own = own - rest @ np.linalg.lstsq(rest, own, rcond=None)[0]
     count = max(len(free.spectrum.residuals) - free.unknowns, 1)
     steps = np.linalg.pinv(own.T @ own, rcond=1e-9) * free.cost / count
@@ -175,7 +190,7 @@ def deviation(data: Measurements, lawful: Joint, static: float | None) -> Deviat
     return Deviation(difference - np.median(difference), errors, allowed, free)
 
 
-def failure(data: Measurements, lawful: Joint, found: Deviation) -> str:
+def failure(data: Measurements, lawful: Joint, found: Deviation, free: Joint) -> str:
     """Return in words where a law fails, or nothing.
 
     Parameters
@@ -183,17 +198,26 @@ def failure(data: Measurements, lawful: Joint, found: Deviation) -> str:
     data : Measurements
     lawful : Joint
     found : Deviation
+    free : Joint
+        The best coarse fit of free shifts, from any start.
     """
     names = {"wlf": "the WLF equation", "arrhenius": "the Arrhenius law"}
     where = np.flatnonzero(found.fails)
     if len(where):
-        places = ", ".join(f"{data.temperatures[one]:.4g}" for one in where)
         worst = where[np.argmax(np.abs(found.decades[where]))]
+        places = ", ".join(f"{data.temperatures[one]:.4g}" for one in where)
+        if len(where) > _MOST_NAMED:
+            places = (
+                f"{len(where)} of {len(data.temperatures)} temperatures, most of all at {data.temperatures[worst]:.4g}"
+            )
         return (
             f"{names[lawful.law.name]} fails at {places} degC: free shifts differ from it by up to "
             f"{abs(found.decades[worst]):.2g} decades, where {found.allowed[worst]:.2g} would be within errors and "
             "1 K of temperature"
         )
+    if lawful.cost > _WORSE**2 * free.cost:
+        rms = [100.0 * (each.cost / len(each.spectrum.residuals)) ** 0.5 for each in (lawful, free)]
+        return f"{names[lawful.law.name]} fails: it leaves residuals of {rms[0]:.2g} %, free shifts {rms[1]:.2g} %"
     if lawful.law.name == "wlf" and 1.0 / lawful.parameters[1] > _LARGEST_C2:
         return f"the data do not determine C1 and C2: shifts lie on a straight line, C2 is above {_LARGEST_C2:g} K"
     return ""
