@@ -9,11 +9,12 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.dma.choice import choose_branches, without_idle
-from rubfric.dma.joint import COARSE, MARGIN, Joint, follow, refine, search, unstick, window
+from rubfric.dma.joint import COARSE, MARGIN, Joint, follow, refine, window
 from rubfric.dma.judge import Deviation, check_enough, check_gaps, check_overlap, deviation, failure
 from rubfric.dma.laws import LN10, Free, law_of
 from rubfric.dma.measurements import Measurements
 from rubfric.dma.outliers import without_outliers, without_resonance
+from rubfric.dma.search import search, unstick
 from rubfric.dma.spectrum import grid, kernel
 from rubfric.errors import InvalidInput
 from rubfric.rubber.shift import Shift

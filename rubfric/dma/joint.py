@@ -17,14 +17,8 @@ from rubfric.rubber.shift import KELVIN
 COARSE = 2.0
 # Decades beyond the window in which a branch may lie, since the slope of its moduli still shows at the end.
 MARGIN = 1.0
-# Most branches while starts are compared.
-_MOST_BRANCHES = 200
-# Starts that are followed to their end.
-_FOLLOWED = 3
 # Largest |ln b_T|: moduli do not double by a change of temperature alone.
 _LARGEST_SCALE = 0.7
-# How often the steps of free shifts are gone through, and by how many decades each is changed.
-_SWEEPS, _CHANGES = 6, (-2.0, -1.0, -0.4, 0.4, 1.0, 2.0, 3.0)
 # How far a relaxation time may move, in ln tau.
 _FARTHEST = 1.5
 
@@ -145,6 +139,7 @@ def follow(
     times: Real,
     static: float | None,
     moving: bool = False,
+    tolerance: float = 1e-8,
 ) -> Joint:
     """Fit from one start.
 
@@ -163,6 +158,8 @@ def follow(
         Static modulus, MPa, where it is known.
     moving : bool
         Whether the times are only where to begin.
+    tolerance : float
+        Relative changes of cost and parameters at which the fit ends.
     """
     count, temperatures = law.bounds[0].size, data.temperatures
     nearest = int(np.argmin(np.abs(temperatures - reference))) if vertical == "free" else 0
@@ -202,81 +199,13 @@ def follow(
             jacobian,
             bounds=(low, high),
             x_scale="jac",
-            ftol=1e-8,
-            xtol=1e-8,
+            ftol=tolerance,
+            xtol=tolerance,
             gtol=1e-12,
             max_nfev=80,
         ).x
     found = np.exp(start[count + free :]) if moving else times
     return Joint(law, vertical, reference, start, found, at(start), jacobian(start), moving)
-
-
-def search(data: Measurements, law: Law, vertical: str, reference: float, static: float | None) -> Joint:
-    """Fit coarsely from all starts of a law: the best few are followed to their end.
-
-    Parameters
-    ----------
-    data : Measurements
-    law : Law
-    vertical : {"none", "entropic", "free"}
-    reference : float
-        Reference temperature, degC.
-    static : float, optional
-        Static modulus, MPa, where it is known.
-    """
-    free = len(data.temperatures) - 1 if vertical == "free" else 0
-    scales = scales_of(vertical, data.temperatures, reference, np.zeros(free))
-    tried = []
-    for start in law.starts:
-        shifts = law.shifts(start)
-        times = grid(*window(data, shifts), COARSE, MARGIN)
-        if len(times) <= _MOST_BRANCHES:
-            residuals = solve(data, times, shifts, scales, static).residuals
-            tried.append((float(residuals @ residuals), start))
-    best = sorted(tried, key=lambda pair: pair[0])[:_FOLLOWED]
-    found = []
-    for _, start in best:
-        whole = np.concatenate((start, np.zeros(free)))
-        for _ in range(2):  # times follow the window, which follows the shifts
-            times = grid(*window(data, law.shifts(whole[: len(start)])), COARSE, MARGIN)
-            joint = follow(data, law, vertical, reference, whole, times, static)
-            whole = joint.parameters
-        found.append(joint)
-    return min(found, key=lambda joint: joint.cost)
-
-
-def unstick(data: Measurements, joint: Joint, static: float | None) -> Joint:
-    """Fit again with each step of free shifts longer or shorter in turn, while that lowers the cost.
-
-    A step may be caught where a branch of one isotherm meets the next branch of its neighbour.
-
-    Parameters
-    ----------
-    data : Measurements
-    joint : Joint
-        Its law is free.
-    static : float, optional
-        Static modulus, MPa, where it is known.
-    """
-    count = joint.law.bounds[0].size
-    for _ in range(_SWEEPS):
-        parameters, best = joint.parameters.copy(), joint.cost
-        for step in range(count):
-            for change in _CHANGES:
-                tried = parameters.copy()
-                tried[step] = max(tried[step] + change * LN10, 0.0)
-                scales = scales_of(joint.vertical, data.temperatures, joint.reference, tried[count:])
-                shifts = joint.law.shifts(tried[:count])
-                times = grid(*window(data, shifts), COARSE, MARGIN)
-                residuals = solve(data, times, shifts, scales, static).residuals
-                if float(residuals @ residuals) < 0.98 * best:
-                    parameters, best = tried, float(residuals @ residuals)
-        times = grid(*window(data, joint.law.shifts(parameters[:count])), COARSE, MARGIN)
-        again = follow(data, joint.law, joint.vertical, joint.reference, parameters, times, static)
-        if again.cost > 0.98 * joint.cost:
-            return min(joint, again, key=lambda each: each.cost)
-        joint = again
-    return joint
 
 
 def refine(data: Measurements, joint: Joint, per_decade: float, margin: float, static: float | None) -> Joint:
@@ -333,4 +262,4 @@ def repeat(data: Measurements, joint: Joint, static: float | None) -> Joint:
         Static modulus, MPa, where it is known.
     """
     start = own_parameters(joint)
-    return follow(data, joint.law, joint.vertical, joint.reference, start, joint.times, static, joint.moving)
+    return follow(data, joint.law, joint.vertical, joint.reference, start, joint.times, static, joint.moving, 1e-5)
