@@ -11,6 +11,7 @@ from rubfric.config import campaign as campaigns
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
+from rubfric.rubber_commands import add_rubber
 from rubfric.scene.procedure import STARTS
 from rubfric.scene.scene import KINEMATICS, Scene
 
@@ -82,6 +83,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     march.set_defaults(run=_march)
     add_rig(commands, _configs)
+    add_rubber(commands, _configs)
     return parser
 
 

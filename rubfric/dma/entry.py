@@ -17,6 +17,8 @@ from rubfric.rubber.shift import ShiftedRubber
 POISSONS_RATIO = 0.49
 # Least static share of the modulus; where it is small, digits of shares count from the instantaneous modulus.
 _LEAST_SHARE, _SMALL_SHARE = 1e-8, 1e-4
+# Relaxation times, s, beyond those of any sliding.
+_SHORTEST, _LONGEST = 1e-20, 1e20
 
 
 def as_shear(data: Measurements, bulk_modulus: float) -> Measurements:
@@ -65,15 +67,19 @@ def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_mod
     InvalidInput
         For data without a static modulus, and for values that no rubber can have.
     """
-    total = fit.static + math.fsum(fit.moduli)
-    share = fit.static / total
+    # Branches that no sliding excites have relaxed, or never relax: cold glasses are shifted by dozens of decades.
+    kept = (fit.times > _SHORTEST) & (fit.times < _LONGEST)
+    static = fit.static + math.fsum(fit.moduli[fit.times >= _LONGEST])
+    moduli, times = fit.moduli[kept], fit.times[kept]
+    total = static + math.fsum(moduli)
+    share = static / total
     if share < _LEAST_SHARE:
         raise InvalidInput(
             f"{fit.data.source} shows no plateau at low frequencies, so that the rubber would carry no load at rest: "
             "measure slower or warmer, or give --static-modulus"
         )
-    moduli = "long_term" if share >= _SMALL_SHARE else "instantaneous"
-    modulus = fit.static if moduli == "long_term" else total
+    which = "long_term" if share >= _SMALL_SHARE else "instantaneous"
+    modulus = static if which == "long_term" else total
     if bulk_modulus is None:
         young = modulus if fit.data.kind == "E" else 2.0 * (1.0 + poissons_ratio) * modulus
     else:
@@ -83,9 +89,9 @@ def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_mod
         name=name,
         youngs_modulus=young,
         poissons_ratio=poissons_ratio,
-        shear_fractions=tuple(float(each / total) for each in fit.moduli),
-        relaxation_times=tuple(map(float, fit.times)),
-        moduli=moduli,
+        shear_fractions=tuple(float(each / total) for each in moduli),
+        relaxation_times=tuple(map(float, times)),
+        moduli=which,
         bulk="elastic" if bulk_modulus is not None else "proportional",
     )
 

@@ -11,7 +11,7 @@ from rubfric.arrays import Real
 from rubfric.dma.choice import choose_branches, without_idle
 from rubfric.dma.joint import COARSE, MARGIN, Joint, follow, refine, window
 from rubfric.dma.judge import Deviation, check_enough, check_gaps, check_overlap, deviation, failure
-from rubfric.dma.laws import LN10, Free, law_of
+from rubfric.dma.laws import LN10, Free, free_law, law_of
 from rubfric.dma.measurements import Measurements
 from rubfric.dma.outliers import without_outliers, without_resonance
 from rubfric.dma.search import search, unstick
@@ -181,7 +181,7 @@ def fit(data: Measurements, options: Options | None = None) -> Fit:
 
 
 def _fit_master(data: Measurements, options: Options) -> Fit:
-    law, nothing = Free(np.zeros((1, 1))), np.zeros(0)
+    law, nothing = Free(np.zeros((1, 1)), np.zeros(0)), np.zeros(0)
     if options.vertical != "none" or options.law != "auto":
         raise InvalidInput(f"{data.source} is a master curve, which is not shifted: leave --law and --vertical out")
     for _ in range(2):
@@ -242,8 +242,8 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
 
 
 def _free(data: Measurements, fits: dict[str, Joint], vertical: str, reference: float, static: float | None) -> Joint:
-    starts = np.array([joint.shifts for joint in fits.values()])
-    return search(data, Free(starts), vertical, reference, static)
+    starts = [joint.shifts for joint in fits.values()]
+    return search(data, free_law(data, *starts), vertical, reference, static)
 
 
 def _reference(data: Measurements, options: Options) -> float:

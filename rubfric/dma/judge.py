@@ -9,7 +9,7 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.dma.joint import Joint, follow, own_parameters
-from rubfric.dma.laws import LN10, Free
+from rubfric.dma.laws import LN10, free_law
 from rubfric.dma.measurements import Measurements
 from rubfric.errors import InvalidInput
 
@@ -168,7 +168,7 @@ def deviation(data: Measurements, lawful: Joint, static: float | None) -> Deviat
     static : float, optional
         Static modulus, MPa, where it is known.
     """
-    law = Free(lawful.shifts[None])
+    law = free_law(data, lawful.shifts)
     start = np.concatenate((law.starts[0], own_parameters(lawful)[lawful.law.bounds[0].size :]))
     times = lawful.times * np.exp(lawful.shifts[0])  # free shifts count from the coldest isotherm
     free = follow(data, law, lawful.vertical, lawful.reference, start, times, static, moving=lawful.moving)

@@ -14,9 +14,12 @@ from typing import Protocol
 import numpy as np
 
 from rubfric.arrays import Real
+from rubfric.dma.measurements import Measurements
 from rubfric.rubber.shift import GAS, KELVIN
 
 LN10 = math.log(10.0)
+# Decades of reduced frequency that neighbours with free shifts have in common, at least.
+OVERLAP = 0.3
 # Largest share of the way to the pole of the WLF equation, and the largest C2, K.
 _POLE, _LARGEST_C2 = 0.98, 1e4
 # Decades between the coldest and the warmest isotherm that are tried, and shares of the way to the pole.
@@ -116,27 +119,29 @@ class Arrhenius:
 
 @dataclass(frozen=True, eq=False)
 class Free:
-    """Steps d_k >= 0 of -ln a_T between neighbouring isotherms.
+    """Steps d_k >= 0 of -ln a_T between neighbouring isotherms, which have to overlap.
 
     Attributes
     ----------
     first : ndarray, shape (starts, isotherms)
         Shifts ln a_T to begin with.
+    widest : ndarray, shape (isotherms - 1,)
+        Largest steps: beyond, neighbours would have no reduced frequency in common, and nothing would hold them.
     """
 
     first: Real
+    widest: Real
     name = "free"
 
     @property
     def bounds(self) -> tuple[Real, Real]:
-        """No step is negative."""
-        count = self.first.shape[1] - 1
-        return np.zeros(count), np.full(count, 50.0)
+        """No step is negative, or too wide."""
+        return np.zeros_like(self.widest), self.widest
 
     @property
     def starts(self) -> Real:
         """Steps of the shifts to begin with, shape (starts, isotherms - 1)."""
-        return np.maximum(-np.diff(self.first, axis=1), 1e-3)
+        return np.clip(-np.diff(self.first, axis=1), 1e-3, self.widest)
 
     def shifts(self, parameters: Real) -> Real:
         """Return ln a_T, shape (isotherms,); 0 at the coldest."""
@@ -145,6 +150,21 @@ class Free:
     def derivative(self, parameters: Real) -> Real:
         """Return the derivative, shape (isotherms, isotherms - 1)."""
         return -np.tri(len(parameters) + 1, len(parameters), -1)
+
+
+def free_law(data: Measurements, *first: Real) -> Free:
+    """Return free shifts of data.
+
+    Parameters
+    ----------
+    data : Measurements
+    *first : ndarray, each of shape (isotherms,)
+        Shifts ln a_T to begin with.
+    """
+    count = len(data.temperatures)
+    ends = [np.log(data.frequency[data.isotherm == one]) for one in range(count)]
+    widest = [ends[one + 1].max() - ends[one].min() for one in range(count - 1)]
+    return Free(np.array(first), np.maximum(np.array(widest) - OVERLAP * LN10, 0.1))
 
 
 def law_of(name: str, temperatures: Real, reference: float) -> Law:

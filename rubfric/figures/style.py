@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import threading
@@ -176,6 +177,22 @@ def save(figure: Figure, *paths: str | os.PathLike[str]) -> None:
         lay_out(figure)
         for target in targets:
             _save_one(figure, target)
+
+
+def png(figure: Figure, resolution: float = 200.0) -> bytes:
+    """Return a figure as the bytes of a PNG file, for a page that holds it.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    resolution : float
+        Dots per inch.
+    """
+    stream = io.BytesIO()
+    with applied():
+        lay_out(figure)
+        figure.savefig(stream, format="png", dpi=resolution, metadata=_METADATA["png"])
+    return stream.getvalue()
 
 
 def lay_out(figure: Figure) -> None:

@@ -30,12 +30,13 @@ _EXPLORER = (
 _ASSETS = {
     "table": ("page.html", "page.css", "table.html"),
     "claims": ("page.html", "page.css", "claims.html"),
+    "rubber": ("page.html", "page.css", "rubber.html"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
 
 
 def assets(page: str) -> tuple[Path, ...]:
-    """Return the templates, styles and scripts of a page: ``table``, ``claims`` or ``explorer``."""
+    """Return the templates, styles and scripts of a page: ``table``, ``claims``, ``rubber`` or ``explorer``."""
     return tuple(_FOLDER / name for name in _ASSETS[page])
 
 
