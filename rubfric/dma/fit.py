@@ -237,7 +237,7 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
         warnings += [words for words in said.values() if words]
         warnings += ["free shifts were taken, which cannot be extrapolated beyond the measured temperatures"]
     joint = without_idle(joint)
-    warnings += check_gaps(data, joint.shifts) if joint.law.name != "free" else []
+    warnings += check_gaps(data, joint.shifts)
     return assembled(data, options, reference, joint, deviations, warnings)
 
 

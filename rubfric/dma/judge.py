@@ -9,12 +9,12 @@ import numpy as np
 
 from rubfric.arrays import Real
 from rubfric.dma.joint import Joint, follow, own_parameters
-from rubfric.dma.laws import LN10, free_law
+from rubfric.dma.laws import LN10, WIDEST_GAP, free_law
 from rubfric.dma.measurements import Measurements
 from rubfric.errors import InvalidInput
 
-# Widest gap of reduced frequencies, decades, that a law may bridge.
-_WIDEST_GAP = 1.0
+# Gaps of reduced frequencies, decades, that are worth a word, and what free shifts may exceed the widest by.
+_GAP, _ROUND_OFF = 0.1, 1e-3
 # A law fails at an isotherm that is off by more than so many standard errors, and by more than an error of the
 # temperature of 1 K or 0.1 decades explains.
 _ERRORS, _KELVINS, _DECADES = 3.0, 1.0, 0.1
@@ -130,7 +130,7 @@ def check_overlap(data: Measurements) -> None:
 
 
 def check_gaps(data: Measurements, shifts: Real) -> list[str]:
-    """Return a note on gaps between the reduced frequencies of neighbours that a law bridges.
+    """Return a note on the widest gap between the reduced frequencies of neighbours.
 
     Parameters
     ----------
@@ -149,13 +149,18 @@ def check_gaps(data: Measurements, shifts: Real) -> list[str]:
     gaps = lows[:-1] - highs[1:]
     widest = int(np.argmax(gaps))
     pair = f"{data.temperatures[widest]:.4g} and {data.temperatures[widest + 1]:.4g} degC"
-    if gaps[widest] > _WIDEST_GAP:
+    if gaps[widest] > WIDEST_GAP + _ROUND_OFF:
         raise InvalidInput(
             f"{data.source} has nothing within {gaps[widest]:.2g} decades of reduced frequency between {pair}, but a "
-            f"law of shifting bridges at most {_WIDEST_GAP:g}: measure a temperature between, or leave out those "
+            f"fit bridges at most {WIDEST_GAP:g}: measure a temperature between, or leave out those "
             "on one side"
         )
-    return [f"no data in {gaps[widest]:.2g} decades of reduced frequency between {pair}"] if gaps[widest] > 0.1 else []
+    if gaps[widest] <= _GAP:
+        return []
+    return [
+        f"isotherms do not overlap everywhere: there are no data in {gaps[widest]:.2g} decades of reduced frequency "
+        f"between {pair}, where the spectrum alone holds the shifts"
+    ]
 
 
 def deviation(data: Measurements, lawful: Joint, static: float | None) -> Deviation:

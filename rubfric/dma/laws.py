@@ -18,8 +18,8 @@ from rubfric.dma.measurements import Measurements
 from rubfric.rubber.shift import GAS, KELVIN
 
 LN10 = math.log(10.0)
-# Decades of reduced frequency that neighbours with free shifts have in common, at least.
-OVERLAP = 0.3
+# Widest gap of reduced frequency between neighbours, decades.
+WIDEST_GAP = 1.0
 # Largest share of the way to the pole of the WLF equation, and the largest C2, K.
 _POLE, _LARGEST_C2 = 0.98, 1e4
 # Decades between the coldest and the warmest isotherm that are tried, and shares of the way to the pole.
@@ -119,14 +119,14 @@ class Arrhenius:
 
 @dataclass(frozen=True, eq=False)
 class Free:
-    """Steps d_k >= 0 of -ln a_T between neighbouring isotherms, which have to overlap.
+    """Steps d_k >= 0 of -ln a_T between neighbouring isotherms.
 
     Attributes
     ----------
     first : ndarray, shape (starts, isotherms)
         Shifts ln a_T to begin with.
     widest : ndarray, shape (isotherms - 1,)
-        Largest steps: beyond, neighbours would have no reduced frequency in common, and nothing would hold them.
+        Largest steps, those that leave a gap of a decade between the reduced frequencies of neighbours.
     """
 
     first: Real
@@ -164,7 +164,7 @@ def free_law(data: Measurements, *first: Real) -> Free:
     count = len(data.temperatures)
     ends = [np.log(data.frequency[data.isotherm == one]) for one in range(count)]
     widest = [ends[one + 1].max() - ends[one].min() for one in range(count - 1)]
-    return Free(np.array(first), np.maximum(np.array(widest) - OVERLAP * LN10, 0.1))
+    return Free(np.array(first), np.maximum(np.array(widest) + WIDEST_GAP * LN10, 0.1))
 
 
 def law_of(name: str, temperatures: Real, reference: float) -> Law:
