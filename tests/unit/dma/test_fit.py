@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -14,10 +15,14 @@ from rubfric.dma.bootstrap import bootstrap
 from rubfric.dma.entry import as_shear, rubber, shifted
 from rubfric.dma.fit import Options, fit
 from rubfric.dma.joint import refine
+from rubfric.dma.laws import law_of
 from rubfric.dma.measurements import Measurements, ordered, read
+from rubfric.dma.search import search
+from rubfric.dma.spectrum import kernel
 from rubfric.errors import InvalidInput
 
-SHARED = Path("/work/shared/data/dma")
+# Files of others, which are not shipped: beside the project, or where the variable says.
+SHARED = Path(os.environ.get("RUBFRIC_MEASURED", Path(__file__).resolve().parents[4] / "shared/data")) / "dma"
 TEMPERATURES = np.array([-45.0, -35.0, -25.0, -15.0, -5.0, 5.0, 20.0])
 HERTZ = np.geomspace(0.1, 100.0, 13)
 
@@ -91,7 +96,6 @@ def test_free_shifts_where_a_law_fails(rng: np.random.Generator) -> None:
     assert "the WLF equation fails" in found.warnings[0]
     assert "free shifts were taken" in found.warnings[-1]
     assert found.log_shifts == pytest.approx(glassy, abs=0.03)
-    assert misses(replace(truth, c1=0.0), found.data, (np.zeros(91), np.zeros(91))) > 0.5
     forced = fit(data, Options(law="wlf"))
     assert forced.law == "wlf"
     assert "as asked" in forced.warnings[0]
@@ -190,10 +194,6 @@ def test_a_large_fit_is_quick(rng: np.random.Generator) -> None:
 
 def test_derivatives_of_the_residuals(rng: np.random.Generator) -> None:
     # The bends of the fit: with the moduli held, residuals change with ln tau as the derivative says.
-    from rubfric.dma.laws import law_of
-    from rubfric.dma.search import search
-    from rubfric.dma.spectrum import kernel
-
     data = measurements(table_1(), TEMPERATURES, HERTZ, 0.01, rng)
     joint = search(data, law_of("wlf", data.temperatures, 20.0), "none", 20.0, None)
     joint = refine(data, joint, 1.0, 0.5, None)
