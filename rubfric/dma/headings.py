@@ -18,9 +18,9 @@ QUANTITIES = {
 _USUAL = {
     "frequency": r"f|freq|frequency|frequenz|omega|ω|w|angular (frequency|freq)|ang(ular)? freq(uency)?|test frequency",
     "temperature": r"t|temp|temperature|temperatur|sample temp(erature)?|temp(erature)? sample",
-    "storage": r"[eg]'|[eg] ?(stor|storage|prime|1)|([a-z]+ )?storage( modulus)?( [eg]')?|speichermodul( [eg]')?",
-    "loss": r"[eg]''|[eg] ?(loss|double prime|2)|([a-z]+ )?loss( modulus)?( [eg]'')?|verlustmodul( [eg]'')?",
-    "complex": r"\|?[eg]\*\|?|[eg] ?(star|complex)|([a-z]+ )?complex( modulus)?|(dynamic|abs) modulus",
+    "storage": r"[eg]'|[eg] ?(stor|storage|prime|1)|([a-z']+ )?storage( modulus)?( [eg]')?|speichermodul( [eg]')?",
+    "loss": r"[eg]''|[eg] ?(loss|double prime|2)|([a-z']+ )?loss( modulus)?( [eg]'')?|verlustmodul( [eg]'')?",
+    "complex": r"\|?[eg]\*\|?|[eg] ?(star|complex)|([a-z']+ )?complex( modulus)?|(dynamic|abs) modulus",
     "tan_delta": r"tan ?(delta|d|δ)|tand|tandelta|loss factor|verlustfaktor|damping|loss tangent",
     "phase": r"phase( angle)?|phase shift|delta|δ|loss angle|phasenwinkel",
 }

@@ -87,6 +87,6 @@ def split_heading(heading: str) -> tuple[str, str]:
     if bracketed and bracketed["name"] and (is_unit(bracketed["unit"]) or bracketed["unit"] in ("", "-", "1", "%")):
         return bracketed["name"], bracketed["unit"].strip("-")
     appended = _APPENDED.match(text)
-    if appended and is_unit(appended["unit"]) and len(appended["name"]) > 1 - (text.count("/") > 0):
+    if appended and is_unit(appended["unit"]):
         return appended["name"].rstrip(" /,"), appended["unit"]
     return text, ""
