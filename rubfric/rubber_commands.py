@@ -122,7 +122,10 @@ def _fit(options: argparse.Namespace) -> int:
     output = options.output or Path(f"rubber_{name}.yaml")
     page = output.with_suffix(".html")
     _check_output(output)
-    for key, least, most in (("isotherm", 1e-3, 20.0), ("branches_per_decade", 0.2, 20.0), ("samples", 20, 10000)):
+    for key, least, most in (
+        *(("isotherm", 1e-3, 20.0), ("branches_per_decade", 0.2, 20.0), ("samples", 20, 10000)),
+        *(("bulk_modulus", 1.0, 1e6), ("static_modulus", 1e-4, 1e5)),
+    ):
         if getattr(options, key) is not None:
             Number(low=least, high=most).check(f"--{key.replace('_', '-')}", getattr(options, key))
     said = _columns(options.columns)
@@ -136,15 +139,18 @@ def _fit(options: argparse.Namespace) -> int:
     modulus = options.modulus or said.pop("modulus", None)
     said.pop("modulus", None)
     data = read(options.file, modulus=modulus, master=options.master, isotherm=options.isotherm, **said)
-    if options.bulk_modulus is not None:
-        data = as_shear(data, options.bulk_modulus)
+    static, bulk = options.static_modulus, options.bulk_modulus
+    if bulk is not None:
+        if static is not None and data.kind == "E":
+            static = 3.0 * bulk * static / (9.0 * bulk - static)
+        data = as_shear(data, bulk)
     found = fit(
         data,
         Options(
             options.reference_temperature,
             options.law,
             options.vertical,
-            options.static_modulus,
+            static,
             options.branches_per_decade,
             options.samples,
             options.seed,

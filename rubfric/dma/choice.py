@@ -24,7 +24,7 @@ _APART, _LEAST_GAIN = 0.25, 1.0
 _MOST_SPLIT = 20
 
 
-def choose_branches(data: Measurements, joint: Joint, static: float | None, per_decade: float | None) -> Joint:
+def choose_branches(data: Measurements, joint: Joint, static: float | None) -> Joint:
     """Return the fit with the branches that the data justify.
 
     Parameters
@@ -34,12 +34,7 @@ def choose_branches(data: Measurements, joint: Joint, static: float | None, per_
         A coarse fit.
     static : float, optional
         Static modulus, MPa, where it is known.
-    per_decade : float, optional
-        Branches a decade, where the user wants them evenly spaced within the window.
     """
-    if per_decade is not None:
-        once = refine(data, joint, per_decade, 0.0, static)
-        return refine(data, once, per_decade, 0.0, static)
     even = [refine(data, joint, density, MARGIN, static) for density in _DENSITIES]
     few = [_thinned(data, merge(data, dense, static), static) for dense in even]
     dense, sparse = (min(fits, key=lambda each: each.bic) for fits in (even, few))

@@ -23,6 +23,9 @@ LAWS = ("auto", "wlf", "arrhenius", "free")
 VERTICAL = ("none", "entropic", "free")
 # Reference temperature, degC, where the user gives none and it was measured.
 ROOM = 20.0
+# Share by which noise may take the least storage modulus below the static one, and residuals worth a word.
+_ABOVE, _POOR = 1.1, 0.05
+_REMEDY = "see its residuals and the van Gurp-Palmen plot, and try --vertical or more branches a decade"
 # Fewest points that a spectrum is fitted to.
 _FEWEST = 6
 
@@ -172,7 +175,7 @@ def fit(data: Measurements, options: Options | None = None) -> Fit:
     options = options or Options()
     if len(data.storage) < _FEWEST:
         raise InvalidInput(f"{data.source} has {len(data.storage)} usable points, but a fit needs at least {_FEWEST}")
-    if options.static is not None and options.static >= data.storage.min():
+    if options.static is not None and options.static > _ABOVE * data.storage.min():
         raise InvalidInput(
             f"the static modulus is {options.static:g} MPa, but must be below the least storage modulus in "
             f"{data.source}, {data.storage.min():.4g} MPa"
@@ -189,7 +192,7 @@ def _fit_master(data: Measurements, options: Options) -> Fit:
         joint = follow(data, law, "none", 0.0, nothing, times, options.static)
         data = without_outliers(data, joint.spectrum.residuals)
     joint = follow(data, law, "none", 0.0, nothing, times, options.static)
-    joint = without_idle(choose_branches(data, joint, options.static, options.per_decade))
+    joint = without_idle(_even(data, choose_branches(data, joint, options.static), options))
     return assembled(data, replace(options, vertical="none"), np.nan, joint, {}, [])
 
 
@@ -220,7 +223,7 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
     for name in names:
         deviations[name] = deviation(data, fits[name], static)
         if name == options.law or not deviations[name].hopeless:
-            fits[name] = choose_branches(data, fits[name], static, options.per_decade)
+            fits[name] = choose_branches(data, fits[name], static)
             deviations[name] = deviation(data, fits[name], static)
     said = {name: failure(data, fits[name], found, free) for name, found in deviations.items()}
     holds = [name for name in names if not said[name]]
@@ -233,12 +236,20 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
     else:
         check_overlap(data)
         joint = unstick(data, _free(data, fits, vertical, reference, static), static)
-        joint = choose_branches(data, joint, static, options.per_decade)
+        joint = choose_branches(data, joint, static)
         warnings += [words for words in said.values() if words]
         warnings += ["free shifts were taken, which cannot be extrapolated beyond the measured temperatures"]
-    joint = without_idle(joint)
+    joint = without_idle(_even(data, joint, options))
     warnings += check_gaps(data, joint.shifts)
     return assembled(data, options, reference, joint, deviations, warnings)
+
+
+def _even(data: Measurements, joint: Joint, options: Options) -> Joint:
+    """Return the fit with evenly spaced branches, where they are asked for."""
+    if options.per_decade is None:
+        return joint
+    once = refine(data, joint, options.per_decade, 0.0, options.static)
+    return refine(data, once, options.per_decade, 0.0, options.static)
 
 
 def _free(data: Measurements, fits: dict[str, Joint], vertical: str, reference: float, static: float | None) -> Joint:
@@ -279,6 +290,9 @@ def assembled(
             shift = float(np.interp(reference, data.temperatures, shifts))
         if joint.vertical == "free":
             scale = float(np.interp(reference, data.temperatures, scales))
+    rms = float(np.sqrt(joint.cost / len(joint.spectrum.residuals)))
+    if rms > _POOR:
+        warnings = [*warnings, f"the fit misses the moduli by {rms:.0%} rms: {_REMEDY}"]
     order = np.argsort(joint.times)
     static, moduli = joint.spectrum.moduli[0], joint.spectrum.moduli[1:][order]
     return Fit(
