@@ -131,8 +131,9 @@ def _fit(options: argparse.Namespace) -> int:
     said = _columns(options.columns)
     from rubfric.dma.bootstrap import bootstrap  # heavy: only once the input is known to be right
     from rubfric.dma.entry import as_shear, rubber
-    from rubfric.dma.fit import Options, fit
+    from rubfric.dma.fit import fit
     from rubfric.dma.measurements import read
+    from rubfric.dma.result import Options
     from rubfric.pages.render import write_page
     from rubfric.pages.rubber import results, rubber_page, sentence
 

@@ -122,7 +122,7 @@ def rubber(
     shear = _short_of_one(deck, shear, young, elastic.long_term, static_modulus)
     if young > _STIFFEST:
         raise InvalidInput(
-            f"{deck.source} has a Young's modulus of {young:.4g} MPa but "
+            f"{deck.source} has a Young's modulus of {young:.4g} MPa, but "
             f"rubber has less than {_STIFFEST:g} MPa: name the units that the deck is in, Pa for one, with --units"
         )
     return Material(

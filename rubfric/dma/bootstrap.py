@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Real
-from rubfric.dma.fit import Fit, assembled
 from rubfric.dma.joint import repeat
+from rubfric.dma.result import Fit, assembled
 
 # Percentiles of the 95 % band.
 _BAND = (2.5, 97.5)

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from rubfric.checks import SIGNIFICANT_DIGITS
-from rubfric.dma.fit import Fit
 from rubfric.dma.measurements import Measurements
+from rubfric.dma.result import Fit
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rubfric.dma.bootstrap import Bands
-from rubfric.dma.fit import Fit
 from rubfric.dma.laws import LN10, law_of
+from rubfric.dma.result import Fit
 from rubfric.figures.style import COLUMN, applied, colours
 
 # Height of a figure, inches, and opacity of bands.

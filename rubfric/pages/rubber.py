@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 
 from rubfric.dma.bootstrap import Bands
-from rubfric.dma.fit import Fit
+from rubfric.dma.result import Fit
 from rubfric.figures.dma import draw
 from rubfric.figures.style import png
 from rubfric.pages.render import render

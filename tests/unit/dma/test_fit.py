@@ -13,10 +13,11 @@ from synthetic_dma import Truth, drawn, measurements, table_1
 
 from rubfric.dma.bootstrap import bootstrap
 from rubfric.dma.entry import as_shear, rubber, shifted
-from rubfric.dma.fit import Options, fit
+from rubfric.dma.fit import fit
 from rubfric.dma.joint import refine
 from rubfric.dma.laws import law_of
 from rubfric.dma.measurements import Measurements, ordered, read
+from rubfric.dma.result import Options
 from rubfric.dma.search import search
 from rubfric.dma.spectrum import kernel
 from rubfric.errors import InvalidInput
