@@ -13,6 +13,7 @@ from itertools import product
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.default import PAPER
 from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
 from rubfric.config.multiscale import Multiscale
 from rubfric.config.overlay import overlaid
@@ -258,10 +259,16 @@ class Campaign:
         return {scene.name: scene for scene in scenes}
 
 
-def load(*paths: str | os.PathLike[str]) -> Campaign:
-    """Read one or more YAML configs, each laid over the ones before, and check the whole.
+def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
+    """Read one or more configs, each laid over the ones before, and check the whole.
 
-    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml.
+    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml. Without
+    any it is the paper's campaign.
+
+    Parameters
+    ----------
+    *configs : path-like or mapping
+        YAML files, or what such a file holds, as a dict.
 
     Raises
     ------
@@ -270,4 +277,4 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    return Campaign.from_config(overlaid(paths, Config.model_fields))
+    return Campaign.from_config(overlaid(configs or [PAPER], Config.model_fields))

@@ -47,12 +47,15 @@ class RunLog(logging.Handler):
         Folder of the results; the log goes to ``logs/run.log`` in it.
     targets : collection of str
         Rules without output, whose jobs do not count.
+    rules : mapping of str to str, optional
+        The names of the workflow's own rules by those they have in the run, where it is a module of another one; jobs
+        of other rules do not count. By default every rule has its own name.
     tables : iterable of str
         Tables of single scales and of totals, for errors, warnings and refusals.
     first : iterable of str
         Files to open first, the most important first; those that are missing are not named.
-    dry : callable
-        Returns whether this is a dry run.
+    dry, touch : callable
+        Return whether this is a dry run, and whether files are only marked as up to date.
     seconds : callable
         Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
@@ -64,19 +67,25 @@ class RunLog(logging.Handler):
         results: str,
         *,
         targets: Collection[str] = (),
+        rules: Mapping[str, str] | None = None,
         tables: Iterable[str] = (),
         first: Iterable[str] = (),
         dry: Callable[[], bool] = lambda: False,
+        touch: Callable[[], bool] = lambda: False,
         seconds: Callable[[str], float | None] = lambda log: None,
         stream: TextIO | None = sys.stderr,
     ) -> None:
         super().__init__()
         self._results, self._path = results, Path(results) / "logs" / "run.log"
         self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
-        self._dry, self._seconds, self._stream = dry, seconds, stream
+        self._rules, self._dry, self._touch, self._seconds, self._stream = rules, dry, touch, seconds, stream
         self._progress = Progress({})
         self._would: list[tuple[str, str]] = []
-        self._interrupted = False
+        # What this run has made; all there is is of this run or still valid where everything was asked for.
+        self._outputs: dict[int, Collection[str]] = {}
+        self._made: set[str] = set()
+        self._everything = True
+        self._interrupted = self._begun = self._reported = False
         self._over = threading.Event()
         self._ticker: threading.Thread | None = None
 
@@ -103,23 +112,37 @@ class RunLog(logging.Handler):
             self.handleError(record)
 
     def begin(self) -> None:
-        """Begin the log; from now on it gets a line now and then."""
+        """Begin the log, if it has not begun; from now on it gets a line now and then."""
+        if self._begun:
+            return
+        self._begun = True
         self._append([f"{_now()}  {' '.join(sys.argv)}"])
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
     def succeed(self) -> None:
-        """Report the outcome, and where it is."""
-        self._stop()
+        """Report the outcome, and where it is, if that was not reported yet."""
+        if not self._end():
+            return
         progress = self._progress
+        if self._touch():
+            self._report(
+                [
+                    f"Nothing was computed: {progress.done()} marked as up to date (--touch), whatever config and code "
+                    "they were made with"
+                ]
+            )
+            return
         self._report([f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._places()])
 
     def fail(self) -> None:
-        """Report what failed, where the reasons are, and what to do."""
-        self._stop()
+        """Report what failed, where the reasons are, and what to do, if no outcome was reported yet."""
+        if not self._end():
+            return
         progress = self._progress
         failures = [] if self._interrupted else progress.failures
-        what = f"{len(failures)} failed" if failures else "interrupted"
+        what = "interrupted" if self._interrupted else "Snakemake gives the reason"
+        what = f"{len(failures)} failed" if failures else what
         lines = [f"Stopped after {duration(progress.elapsed)}: {what}; done: {progress.done()}"]
         lines += [_failed(failure) for failure in failures[:_MOST_FAILURES]]
         if len(failures) > _MOST_FAILURES:
@@ -127,32 +150,44 @@ class RunLog(logging.Handler):
         self._report([*lines, "what is done stays; running again makes the rest"])
 
     def close(self) -> None:
-        """End the log."""
+        """End the log; a run that has begun and reported no outcome, as within a module, has failed."""
+        if self._begun:
+            self.fail()
         self._stop()
         super().close()
 
     def _plan(self, stats: Mapping[str, int]) -> None:
-        planned = {rule: count for rule, count in stats.items() if rule != "total" and rule not in self._targets}
+        own = {name: count for rule, count in stats.items() if rule != "total" and (name := self._own(rule))}
+        planned = {rule: count for rule, count in own.items() if rule not in self._targets}
+        self._everything = "all" in own
+        if not own:
+            return
         if not self._dry():
             self._progress = Progress(planned)
-            self._show([f"To do: {amounts(planned)}"])
+            self._show([f"To {'mark' if self._touch() else 'do'}: {amounts(planned)}"])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
             self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
-        rule = about["rule_name"]
-        if rule in self._targets:
+        rule = self._own(about["rule_name"])
+        if not rule or rule in self._targets:
             return
         name = (about["rule_msg"] or rule).partition(": ")[0]
         if self._dry():
             self._would.append((rule, name))
         else:
+            self.begin()
+            self._outputs[about["jobid"]] = about["output"]
             self._progress.start(about["jobid"], rule, name, about["log"])
 
     def _finish(self, job: int) -> None:
         logs = self._progress.logs.get(job, ())
-        if self._progress.finish(job, self._seconds(logs[0]) if logs else None):
+        self._made.update(self._outputs.pop(job, ()))
+        last_of_kind = self._progress.finish(job, self._seconds(logs[0]) if logs else None)
+        if last_of_kind and not self._touch():
             self._report([self._progress.line()])
+        if self._progress.complete:
+            self.succeed()
 
     def _fail(self, job: int, logs: Collection[str], elsewhere: Mapping[str, Any]) -> None:
         failure = self._progress.fail(job, logs)
@@ -167,7 +202,7 @@ class RunLog(logging.Handler):
         while not self._over.wait(min(max(self._progress.elapsed / 20.0, _SHORTEST), _LONGEST)):
             with self.lock or contextlib.nullcontext():
                 line = self._progress.line()
-            if line and line != last:
+            if line and line != last and not self._touch():
                 self._report([line])
             last = line
 
@@ -176,20 +211,35 @@ class RunLog(logging.Handler):
         if self._ticker and self._ticker is not threading.current_thread():
             self._ticker.join(1.0)
 
+    def _end(self) -> bool:
+        """Stop; return whether the outcome is still to be reported."""
+        self._stop()
+        first, self._reported = not self._reported, True
+        return first
+
+    def _own(self, rule: str) -> str | None:
+        """Return the name of one of the workflow's own rules, or None for another one."""
+        return rule if self._rules is None else self._rules.get(rule)
+
+    def _valid(self, path: str) -> bool:
+        """Return whether a result is of this run, or was found up to date by it."""
+        return os.path.exists(path) and (self._everything or path in self._made)
+
     def _outcome(self) -> list[str]:
-        """Return the slowest jobs, and findings of the tables where those are of this run or still valid."""
+        """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
-        finished = self._progress.finished
-        if {"scale_table", "total_table"} & set(finished) or "scene" not in finished:
-            lines += findings(self._tables)
-        return lines
+        return lines + findings(filter(self._valid, self._tables))
 
     def _places(self) -> list[str]:
-        first = [path for path in self._first if os.path.exists(path)]
+        first = [path for path in self._first if self._valid(path)]
         opened = [f"open first: {', '.join(first)}"] if first else []
-        folder = self._results
-        return [*opened, f"tables are in {folder}/tables, figures in {folder}/figures, fields in {folder}/scenes"]
+        places = [
+            f"{what} in {folder}"
+            for what, name in (("tables", "tables"), ("figures", "figures"), ("fields", "scenes"), ("marches", "marches"))
+            if self._valid(folder := f"{self._results}/{name}") or any(path.startswith(f"{folder}/") for path in self._made)
+        ]
+        return [*opened, *([", ".join(places).replace(" in ", " are in ", 1)] if places else [])]
 
     def _report(self, lines: Sequence[str]) -> None:
         self._show(lines)

@@ -25,7 +25,7 @@ JUDGED = {
 rule reading:
     input:
         package_files("rubfric.studies.paper.observation"),
-        script="workflow/scripts/observe_scenes.py",
+        script=script_copy("observe_scenes.py"),
     output:
         f"{RESULTS}/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.csv",
     log:
@@ -33,6 +33,7 @@ rule reading:
     wildcard_constraints:
         reading=r"[A-Za-z0-9_-]+",
         batch=r"scale\d+_v[0-9.e-]+",
+    localrule: workflow.remote_exec
     params:
         scenes=lambda wildcards: {
             name: scene.parameters()
@@ -49,7 +50,7 @@ rule claims:
     input:
         package_files("rubfric.pages.claims", "rubfric.studies.paper.judge"),
         page_files("claims"),
-        script="workflow/scripts/judge_claims.py",
+        script=script_copy("judge_claims.py"),
         results=[
             *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
             *(JUDGED["totals"], JUDGED["points"]),
@@ -77,6 +78,7 @@ rule claims:
         ),
     log:
         f"{RESULTS}/logs/claims.log",
+    localrule: True
     params:
         criteria=criteria(CAMPAIGN),
         roads={name: reading.whole_parameters() for name, reading in READINGS.items()},

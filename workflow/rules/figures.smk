@@ -61,7 +61,7 @@ FIGURES = [
 rule campaign_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=rules.campaign.output[0],
     output:
         **pictures(
@@ -73,6 +73,7 @@ rule campaign_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(CAMPAIGN_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
     message:
@@ -91,7 +92,7 @@ rule campaign_figure:
 rule field_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
     output:
         **pictures(
@@ -103,6 +104,7 @@ rule field_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(FIELD_FIGURES),
+    localrule: True
     params:
         digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
     message:
@@ -119,15 +121,10 @@ rule field_figure:
         )
 
 
-localrules:
-    total_figure,
-    whole_figure,
-
-
 rule total_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_total.py",
+        script=script_copy("draw_total.py"),
         table=rules.total_table.output.table,
         campaign=rules.campaign.output[0],
     output:
@@ -140,6 +137,7 @@ rule total_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(TOTAL_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
     message:
@@ -159,7 +157,7 @@ rule total_figure:
 rule whole_figure:
     input:
         DRAWN_BY["fig11"],
-        script="workflow/scripts/draw_whole.py",
+        script=script_copy("draw_whole.py"),
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:
         **pictures(
@@ -167,6 +165,7 @@ rule whole_figure:
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
+    localrule: True
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
     message:

@@ -7,7 +7,7 @@ rule rig_points:
         package_files(
             "rubfric.rig.virtual", "rubfric.rig.summary", "rubfric.results.tables"
         ),
-        script="workflow/scripts/measure_rig.py",
+        script=script_copy("measure_rig.py"),
         totals=rules.total_table.output.table,
         measured=RIG_FILES,
     output:
@@ -27,6 +27,7 @@ rule rig_points:
         ),
     log:
         f"{RESULTS}/logs/tables/rig_points.log",
+    localrule: True
     params:
         rig=CAMPAIGN.rig.model_dump(),
     message:
@@ -45,13 +46,14 @@ rule rig_points:
 rule rig_figure:
     input:
         package_files("rubfric.figures.fig9"),
-        script="workflow/scripts/draw_rig.py",
+        script=script_copy("draw_rig.py"),
         totals=rules.total_table.output.table,
         points=rules.rig_points.output.points,
     output:
         **pictures("fig9", "../report/fig9.rst", "friction on the test rig"),
     log:
         f"{RESULTS}/logs/figures/fig9.log",
+    localrule: True
     params:
         pressures=list(CAMPAIGN.rig.pressures),
         speeds=list(CAMPAIGN.rig.speeds),
@@ -72,11 +74,12 @@ rule rig_figure:
 rule rig_schematic:
     input:
         package_files("rubfric.figures.fig8"),
-        script="workflow/scripts/draw_schematic.py",
+        script=script_copy("draw_schematic.py"),
     output:
         **pictures("fig8", "../report/fig8.rst", "the test rig"),
     log:
         f"{RESULTS}/logs/figures/fig8.log",
+    localrule: True
     message:
         "Drawing fig8"
     run:

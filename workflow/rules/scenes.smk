@@ -6,12 +6,13 @@ DIGESTS = [scene.digest for scene in SCENES.values()]
 rule scene:
     input:
         package_files("rubfric.simulation"),
-        script="workflow/scripts/simulate_scene.py",
+        script=script_copy("simulate_scene.py"),
     output:
         scene_file("{scene}"),
     log:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
     priority: 5
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
         version=rubfric.__version__,
@@ -24,7 +25,7 @@ rule scene:
 rule campaign:
     input:
         package_files("rubfric.results.campaign"),
-        script="workflow/scripts/collect_campaign.py",
+        script=script_copy("collect_campaign.py"),
         scenes=scene_files,
     output:
         report(
@@ -37,6 +38,7 @@ rule campaign:
         mark=f"{RESULTS}/collected/{fingerprint(DIGESTS)}",
     log:
         f"{RESULTS}/logs/campaign.log",
+    localrule: True
     params:
         digests=DIGESTS,
     message:

@@ -9,7 +9,7 @@ rule scale_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
         page_files("table"),
-        script="workflow/scripts/tabulate_scale.py",
+        script=script_copy("tabulate_scale.py"),
         campaign=rules.campaign.output[0],
     output:
         table=report(
@@ -28,6 +28,7 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    localrule: True
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -47,7 +48,7 @@ rule total_table:
             "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
         ),
         page_files("table"),
-        script="workflow/scripts/tabulate_total.py",
+        script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
     output:
@@ -71,6 +72,7 @@ rule total_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
+    localrule: True
     params:
         road=CAMPAIGN.whole_parameters(),
     message:
