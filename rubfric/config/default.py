@@ -14,7 +14,7 @@ _LOCAL = Path("config/config.yaml")
 
 
 def base_configs() -> list[Path]:
-    """Return the configs that a campaign begins with: the paper's, and config/config.yaml of the working folder over it.
+    """Return the configs a campaign begins with: the paper's, and config/config.yaml of the working folder over it.
 
     A file of that name which has none of a config's keys belongs to something else and is left alone.
     """

@@ -110,9 +110,7 @@ def overlaid(configs: Iterable[str | os.PathLike[str] | Mapping[str, Any]], keys
     for config in configs:
         entry = config if isinstance(config, Mapping) else read_yaml(config)
         if not isinstance(entry, Mapping):
-            raise InvalidInput(
-                f"{os.fspath(config)} holds {shown(entry)}, but must hold the keys {', '.join(keys)}"
-            )
+            raise InvalidInput(f"{config} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
         merged = _overlay(merged or {}, entry)
     if merged is None:
         raise InvalidInput("no config was given: name at least one file")

@@ -75,7 +75,7 @@ def stamp_files(folder: str | os.PathLike[str], name: str, paths: Iterable[Path]
 
 
 def copy_of(folder: str | os.PathLike[str], path: str | os.PathLike[str]) -> str:
-    """Keep a copy of a text file in ``folder``, of the same name and as ``stamp`` keeps its own, and return its path."""
+    """Keep a copy of a text file in ``folder``, as ``stamp`` keeps its own file, and return its path."""
     source = Path(path)
     return _kept(Path(folder, source.name), source.read_text(encoding="utf-8"), [source])
 

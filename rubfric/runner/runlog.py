@@ -35,6 +35,8 @@ _COVERED = {
     LogEvent.RUN_INFO,
 }
 _SELECTING = "Select jobs to execute..."
+# Without the profile of the workflow, as within a module.
+_SLOW = "each job starts a Snakemake of its own, which takes seconds: --force-use-threads does without"
 _MOST_NAMED, _MOST_FAILURES = 5, 20
 
 
@@ -54,8 +56,8 @@ class RunLog(logging.Handler):
         Tables of single scales and of totals, for errors, warnings and refusals.
     first : iterable of str
         Files to open first, the most important first; those that are missing are not named.
-    dry, touch : callable
-        Return whether this is a dry run, and whether files are only marked as up to date.
+    dry, touch, threads : callable
+        Return whether this is a dry run, whether files are only marked as up to date, and whether jobs run as threads.
     seconds : callable
         Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
@@ -72,13 +74,15 @@ class RunLog(logging.Handler):
         first: Iterable[str] = (),
         dry: Callable[[], bool] = lambda: False,
         touch: Callable[[], bool] = lambda: False,
+        threads: Callable[[], bool] = lambda: True,
         seconds: Callable[[str], float | None] = lambda log: None,
         stream: TextIO | None = sys.stderr,
     ) -> None:
         super().__init__()
         self._results, self._path = results, Path(results) / "logs" / "run.log"
         self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
-        self._rules, self._dry, self._touch, self._seconds, self._stream = rules, dry, touch, seconds, stream
+        self._rules, self._seconds, self._stream = rules, seconds, stream
+        self._dry, self._touch, self._threads = dry, touch, threads
         self._progress = Progress({})
         self._would: list[tuple[str, str]] = []
         # What this run has made; all there is is of this run or still valid where everything was asked for.
@@ -164,7 +168,8 @@ class RunLog(logging.Handler):
             return
         if not self._dry():
             self._progress = Progress(planned)
-            self._show([f"To {'mark' if self._touch() else 'do'}: {amounts(planned)}"])
+            slow = not (self._threads() or self._touch())
+            self._show([f"To {'mark' if self._touch() else 'do'}: {amounts(planned)}", *([_SLOW] if slow else [])])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
             self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
 
@@ -229,15 +234,18 @@ class RunLog(logging.Handler):
         """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
-        return lines + findings(filter(self._valid, self._tables))
+        return lines + findings([path for path in self._tables if self._valid(path)])
 
     def _places(self) -> list[str]:
         first = [path for path in self._first if self._valid(path)]
         opened = [f"open first: {', '.join(first)}"] if first else []
+        kinds = {"tables": "tables", "figures": "figures", "fields": "scenes", "marches": "marches"}
+        folders = {what: f"{self._results}/{name}" for what, name in kinds.items()}
+        made = {os.path.dirname(path) for path in self._made}
         places = [
             f"{what} in {folder}"
-            for what, name in (("tables", "tables"), ("figures", "figures"), ("fields", "scenes"), ("marches", "marches"))
-            if self._valid(folder := f"{self._results}/{name}") or any(path.startswith(f"{folder}/") for path in self._made)
+            for what, folder in folders.items()
+            if self._valid(folder) or any(f"{place}/".startswith(f"{folder}/") for place in made)
         ]
         return [*opened, *([", ".join(places).replace(" in ", " are in ", 1)] if places else [])]
 

@@ -193,6 +193,7 @@ def follow(workflow):
         ],
         dry=lambda: workflow.dryrun,
         touch=lambda: workflow.touch,
+        threads=lambda: workflow.use_threads,
         seconds=jobs.seconds,
         stream=None if Quietness.ALL in quiet else stream,
     )
