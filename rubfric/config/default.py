@@ -14,12 +14,14 @@ _LOCAL = Path("config/config.yaml")
 
 
 def base_configs() -> list[Path]:
-    """Return the configs a campaign begins with: the paper's, and config/config.yaml of the working folder over it.
+    """Return the configs that others are laid over.
 
-    A file of that name which has none of a config's keys belongs to something else and is left alone.
+    They are config/config.yaml of the working folder where it is complete, else the paper's, with that file over it. A
+    file of that name which has none of a config's keys belongs to something else and is left alone.
     """
     if not _LOCAL.is_file() or _LOCAL.resolve() == PAPER.resolve():
         return [PAPER]
-    held = read_yaml(_LOCAL)
-    ours = isinstance(held, Mapping) and bool(set(held) & set(Config.model_fields))
-    return [PAPER, *([_LOCAL] if ours else [])]
+    held, keys = read_yaml(_LOCAL), set(Config.model_fields)
+    if not isinstance(held, Mapping) or not keys & set(held):
+        return [PAPER]
+    return [_LOCAL] if keys <= set(held) else [PAPER, _LOCAL]

@@ -10,6 +10,7 @@ from snakemake.settings.enums import Quietness
 
 import rubfric
 from rubfric.runner import jobs
+from rubfric.config.campaign import load
 from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
