@@ -8,7 +8,6 @@ costs one worker; the next job gets a new one.
 from __future__ import annotations
 
 import contextlib
-import io
 import multiprocessing
 import os
 import runpy
@@ -22,10 +21,11 @@ from collections.abc import Callable, Iterator
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from rubfric.errors import RubfricError
 from rubfric.files import why_not
+from rubfric.streams import occupy_standard_descriptors
 
 # One thread each: the systems are small, and jobs run side by side.
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -40,6 +40,7 @@ class JobFailed(RubfricError, RuntimeError):
 
 def warm_up() -> None:
     """Start the server; returns at once, while it imports."""
+    occupy_standard_descriptors()
     for name in _ONE_THREAD:
         os.environ[name] = "1"
     os.environ.setdefault("MPLBACKEND", "Agg")
@@ -129,15 +130,20 @@ def _hidden_main() -> Iterator[None]:
 def _serve(connection: Connection) -> None:
     """Run the jobs that arrive, one by one, until the caller closes the connection."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(
-            line_buffering=True
-        )  # keeps the order of the log, and the output of a job that is killed
+    sys.stdout, sys.stderr = _lines_to(1), _lines_to(2)
     with contextlib.suppress(EOFError):
         while True:
             script, log, arguments = connection.recv()
             connection.send("begun")
             connection.send(_work(script, log, arguments))
+
+
+def _lines_to(descriptor: int) -> IO[str]:
+    """Return a stream to a descriptor that is there even where the workflow's own output is closed.
+
+    Whole lines keep the order of the log, and the output of a job that is killed.
+    """
+    return open(descriptor, "w", encoding="utf-8", errors="backslashreplace", buffering=1, closefd=False)
 
 
 def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
@@ -147,7 +153,7 @@ def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
         main: Callable[..., None] = runpy.run_path(script)["main"]
         main(**arguments)
         sys.stdout.flush()
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         with contextlib.suppress(OSError):  # on a full disk
             traceback.print_exc()
         place = getattr(error, "filename", None) or log

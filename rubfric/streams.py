@@ -1,0 +1,75 @@
+"""Standard output that is closed, full, or read by nobody to its end."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import IO, Any
+
+from rubfric.errors import NotWritten
+
+
+class _Patient:
+    """A text stream that drops the rest once its reader is gone, as after ``| head``.
+
+    Parameters
+    ----------
+    stream : text file
+        Where the text goes.
+    """
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        self._try(lambda: self._stream.write(text))
+        return len(text)
+
+    def flush(self) -> None:
+        self._try(self._stream.flush)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def _try(self, write: Callable[[], object]) -> None:
+        try:
+            write()
+        except OSError as error:
+            # What is still buffered goes nowhere: Python would complain of it at its exit.
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, self._stream.fileno())
+            os.close(nowhere)
+            if not isinstance(error, BrokenPipeError):
+                raise NotWritten(f"standard output could not be written ({error.strerror})") from error
+
+
+@contextmanager
+def patient_output() -> Iterator[None]:
+    """Go on within the block though the reader of its output is gone; NotWritten where there is no room for output."""
+    before = sys.stdout
+    if before is None:  # closed before Python began, which then prints nowhere
+        yield
+        return
+    patient: Any = _Patient(before)
+    sys.stdout = patient
+    try:
+        yield
+    finally:
+        sys.stdout = before
+        with suppress(NotWritten):
+            patient.flush()
+
+
+def flush_output() -> None:
+    """Send what was printed on its way, so that a failure shows now."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def occupy_standard_descriptors() -> None:
+    """Open descriptors 0, 1 and 2 where they are closed: what is opened next would get one of them for its own."""
+    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(descriptor, True)
+    os.close(descriptor)
