@@ -9,12 +9,12 @@ from pathlib import Path
 import rubfric
 from rubfric.config import campaign as campaigns
 from rubfric.config.default import base_configs
-from rubfric.errors import InvalidInput, RubfricError
+from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
 from rubfric.scene.procedure import STARTS
 from rubfric.scene.scene import KINEMATICS, Scene
-from rubfric.streams import flush_output, patient_output
+from rubfric.streams import patient_output
 
 _EXAMPLE = """\
 example:
@@ -34,25 +34,31 @@ is damaged, or nothing could be written; 2 wrong input; 130 interrupted
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line and return the exit status, which the help explains."""
-    with patient_output():
-        parser = _parser()
-        options = parser.parse_args(arguments)
-        if not hasattr(options, "run"):
-            parser.print_help()
-            return 0
-        try:
-            done = int(options.run(options))
-            flush_output()
-            return done
-        except (InvalidInput, FileNotFoundError) as error:
-            print(f"rubfric: {error}", file=sys.stderr)
-            return 2
-        except (RubfricError, OSError) as error:
-            print(f"rubfric: {error}", file=sys.stderr)
-            return 1
-        except KeyboardInterrupt:
-            print("rubfric: interrupted", file=sys.stderr)
-            return 130
+    try:
+        with patient_output():
+            return _run(arguments)
+    except NotWritten as error:
+        print(f"rubfric: {error}", file=sys.stderr)
+        return 1
+
+
+def _run(arguments: list[str] | None) -> int:
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if not hasattr(options, "run"):
+        parser.print_help()
+        return 0
+    try:
+        return int(options.run(options))
+    except (InvalidInput, FileNotFoundError) as error:
+        print(f"rubfric: {error}", file=sys.stderr)
+        return 2
+    except (RubfricError, OSError) as error:
+        print(f"rubfric: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("rubfric: interrupted", file=sys.stderr)
+        return 130
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import IO, Any
 
 from rubfric.errors import NotWritten
@@ -22,6 +22,7 @@ class _Patient:
 
     def __init__(self, stream: IO[str]) -> None:
         self._stream = stream
+        self.failure: NotWritten | None = None
 
     def write(self, text: str) -> int:
         self._try(lambda: self._stream.write(text))
@@ -42,7 +43,8 @@ class _Patient:
             os.dup2(nowhere, self._stream.fileno())
             os.close(nowhere)
             if not isinstance(error, BrokenPipeError):
-                raise NotWritten(f"standard output could not be written ({error.strerror})") from error
+                self.failure = NotWritten(f"standard output could not be written ({error.strerror})")
+                raise self.failure from error
 
 
 @contextmanager
@@ -56,16 +58,14 @@ def patient_output() -> Iterator[None]:
     sys.stdout = patient
     try:
         yield
+    except SystemExit:  # argparse ends so, and keeps failures of output to itself
+        patient.flush()
+        if patient.failure:
+            raise patient.failure from None
+        raise
     finally:
         sys.stdout = before
-        with suppress(NotWritten):
-            patient.flush()
-
-
-def flush_output() -> None:
-    """Send what was printed on its way, so that a failure shows now."""
-    if sys.stdout is not None:
-        sys.stdout.flush()
+        patient.flush()
 
 
 def occupy_standard_descriptors() -> None:
