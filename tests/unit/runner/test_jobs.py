@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -237,6 +238,19 @@ def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -
         time.sleep(0.01)
     assert not is_running(worker)
     assert (place.folder / "runs.txt").read_text() == "run"
+
+
+@pytest.mark.thorough
+def test_jobs_run_where_the_output_of_the_workflow_is_closed(place: Workplace) -> None:
+    output, master_script = place.folder / "one.txt", place.folder / "master.py"
+    master_script.write_text(
+        "from rubfric.runner import jobs\n"
+        f"jobs.run({str(place.script)!r}, {str(place.log('one'))!r}, output={str(output)!r}, number=7)\n"
+    )
+    command = f"exec {shlex.quote(sys.executable)} master.py <&- >&- 2>&-"
+    assert subprocess.run(["sh", "-c", command], cwd=place.folder, check=False).returncode == 0
+    assert output.read_text().startswith("7 ")
+    assert place.log("one").read_text() == "number 7\non stderr\n"
 
 
 def is_running(process: int) -> bool:
