@@ -60,13 +60,17 @@ def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[
         raise InvalidInput(f"{key} is {shown(given)}, but must hold the keys {', '.join(names)}")
     for name in given:
         if name not in names:
-            raise InvalidInput(
-                f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{suggestion(name, names)}"
-            )
+            raise InvalidInput(unknown_key(key, name, names))
     for name in required:
         if name not in given:
             raise InvalidInput(f"{key} lacks the key {name!r}")
     return given
+
+
+def unknown_key(key: str, name: Any, allowed: Iterable[str]) -> str:
+    """Return what to say of a key that is none of those allowed."""
+    names = list(allowed)
+    return f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{suggestion(name, names)}"
 
 
 def shown(value: Any) -> str:

@@ -153,7 +153,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 def _march(options: argparse.Namespace) -> int:
     campaign, scene = _read(options)
-    arguments = campaign.transient.procedure()
+    arguments = campaign.procedure()
     names = ("start", "columns", "steps_per_wavelength", "wavelengths")
     arguments |= {name: getattr(options, name) for name in names if getattr(options, name) is not None}
     from rubfric.marching import march

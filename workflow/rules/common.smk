@@ -30,7 +30,7 @@ ROAD = CAMPAIGN.road_name
 # Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
-    figures="2 Figures of the paper",
+    figures="2 Figures",
     tables="3 Tables",
     accuracy="4 Accuracy",
     stability="5 Stability",
@@ -55,10 +55,6 @@ localrules:
     campaign_figure,
     field_figure,
     march_figure,
-    rig_points,
-    rig_figure,
-    rig_schematic,
-    claims,
     explorer,
     accuracy_tables,
     accuracy_figure,
@@ -169,7 +165,7 @@ def criteria(campaign):
     fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
-        "studied": list(campaign.aspect_study.pressures),
+        "studied": list(getattr(campaign.aspect_study, "pressures", ())),
         "profiled": {
             "scale": [fields.scale],
             "velocity": list(fields.velocities),
@@ -177,7 +173,7 @@ def criteria(campaign):
             "aspect": [campaign.aspect],
         },
         "difference": campaign.claims.difference,
-        "saturation": campaign.transient.saturation,
+        "saturation": campaign.procedure()["saturation"],
         "total_pressure": campaign.figures.total_pressure,
     }
 
