@@ -8,7 +8,7 @@ from snakemake.utils import min_version
 
 from rubfric.files import check_folder, check_place
 from rubfric.config.campaign import Campaign
-from rubfric.config.overlay import own_campaign, read_yaml
+from rubfric.config.overlay import OWN, own_campaign, read_yaml
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
 from rubfric.runner.reruns import check_records
 from rubfric.rig.files import rig_files
@@ -27,8 +27,12 @@ try:
     if workflow.is_main_process:
         for path in workflow.configfiles:
             read_yaml(path)
-    config.update(own_campaign(config, workflow.config_settings.overwrite_config))
+    ABOVE = workflow.config_settings.overwrite_config
+    OWN_CAMPAIGN = bool(OWN & set(ABOVE))
+    config.update(own_campaign(config, ABOVE))
     CAMPAIGN = Campaign.from_config(config)
+    if workflow.is_main_process:
+        CAMPAIGN.unlikely()  # refuses what cannot be meant
     config.update(CAMPAIGN.choices())  # what follows from the grid, for the report
     RIG_FILES = rig_files(CAMPAIGN.rig) if CAMPAIGN.rig else []
 except InvalidInput as error:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import rubfric
 from rubfric.config import campaign as campaigns
+from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
@@ -132,6 +133,8 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     campaign = campaigns.load(*_configs(options.config or []))
     names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy")
     scene = campaign.scene(**{name: getattr(options, name) for name in names})
+    for sentence in check_plausible(scene.material, campaign.road, [scene.velocity], [scene.pressure]):
+        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene

@@ -24,6 +24,7 @@ from rubfric.config.models import (
 )
 from rubfric.config.multiscale import Multiscale
 from rubfric.config.overlay import EXTRAS, overlaid
+from rubfric.config.plausibility import check_area, check_plausible
 from rubfric.config.references import (
     figures_of,
     march_of,
@@ -272,6 +273,18 @@ class Campaign:
         """Return the arguments of the ``rubfric.scene.procedure.Procedure`` by which scenes are marched."""
         return (self.transient or TransientChoice()).procedure()
 
+    def unlikely(self) -> list[str]:
+        """Return what is unlikely of rubber, road and grid, with the unit that may have been meant.
+
+        Raises
+        ------
+        InvalidInput
+            For what cannot be meant.
+        """
+        if self.rig:
+            check_area("rig.virtual.area", self.rig.virtual.area)
+        return check_plausible(self.material, self.road, self.velocities, self.pressures)
+
     def choices(self) -> dict[str, Any]:
         """Return, as a config has them, the folder of the results and the sections that depend on the grid."""
         sections = {name: getattr(self, name) for name in EXTRAS}
@@ -295,8 +308,10 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     Raises
     ------
     InvalidInput
-        For a file that is no YAML, or a config that is wrong.
+        For a file that is no YAML, a config that is wrong, or numbers far from any rubber, road or load.
     FileNotFoundError
         For a missing file.
     """
-    return Campaign.from_config(overlaid(paths, Config.model_fields))
+    campaign = Campaign.from_config(overlaid(paths, Config.model_fields))
+    campaign.unlikely()
+    return campaign

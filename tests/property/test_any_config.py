@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from rubfric import checks
 from rubfric.config.campaign import Campaign, load
 from rubfric.config.models import Config
+from rubfric.config.overlay import overlaid
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
@@ -86,13 +87,11 @@ def named(way: Way) -> str:
 
 
 def refusal(config: Any) -> str:
-    """Return the one sentence with which a config is refused."""
+    """Return the sentences with which a config is refused: one, or one for each of a name that is missed."""
     with pytest.raises(InvalidInput) as caught:
         Campaign.from_config(config)
-    sentence = str(caught.value)
-    assert "\n" not in sentence
-    assert len(sentence) < 2000
-    return sentence
+    assert all("\n" not in sentence and len(sentence) < 2000 for sentence in caught.value.faults)
+    return " ".join(caught.value.faults)
 
 
 @given(configs())
@@ -124,7 +123,7 @@ def test_config_survives_yaml_and_its_overlay(
     below, above = folder / "below.yaml", folder / "above.yaml"
     below.write_text(yaml.safe_dump(SHIPPED | {"rubbers": {}, "roads": {}} if split else config), encoding="utf-8")
     above.write_text(yaml.safe_dump(config), encoding="utf-8")
-    assert load(below, above) == Campaign.from_config(config)
+    assert Campaign.from_config(overlaid([below, above], config)) == Campaign.from_config(config)
 
 
 @given(configs())

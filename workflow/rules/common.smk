@@ -15,6 +15,8 @@ from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
+from rubfric.runner.opening import Costs, understood
+from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
 from rubfric.studies.accuracy.scenes import (
@@ -183,6 +185,7 @@ def follow(workflow):
     output = workflow.output_settings
     quiet = output.quiet or set()
     stream = sys.stdout if output.stdout else sys.stderr
+    costs = Costs.of(CAMPAIGN)
     run = RunLog(
         RESULTS,
         targets=[rule.name for rule in workflow.rules if not rule.output],
@@ -190,7 +193,7 @@ def follow(workflow):
         first=[
             f"{RESULTS}/{path}"
             for path in (
-                "claims.html",
+                *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
@@ -199,6 +202,9 @@ def follow(workflow):
         dry=lambda: workflow.dryrun,
         seconds=jobs.seconds,
         stream=None if Quietness.ALL in quiet else stream,
+        opening=lambda: understood(CAMPAIGN, OWN_CAMPAIGN),
+        expected=lambda rule: costs.job(rule, kind(rule)),
+        at_once=lambda: workflow.resource_settings.cores or 1,
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run
