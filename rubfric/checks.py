@@ -18,6 +18,11 @@ import numpy as np
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
+# Symbols of the field, and the keys that they stand for.
+_SYNONYMS = {
+    **{"E": "youngs_modulus", "nu": "poissons_ratio", "g_i": "shear_fractions", "tau_i": "relaxation_times"},
+    **{"k_i": "bulk", "lambda": "wavelength", "k": "wavenumber", "a": "amplitude", "rho": "density"},
+}
 # What a message shows of a wrong value, which may be nested without end.
 _MOST_SHOWN = 80
 _SHORT = reprlib.Repr()
@@ -103,5 +108,7 @@ def written(value: float) -> str:
 def suggestion(value: Any, words: list[str]) -> str:
     """Return the word that may have been meant: one that ``value`` has as a part, or else the nearest in spelling."""
     text = shown(value).strip("'\"")
+    if (meant := _SYNONYMS.get(text)) in words:
+        return f" (did you mean {meant}?)"
     close = [word for word in words if word in text.split("_")] or difflib.get_close_matches(text, words, n=1)
     return f" (did you mean {close[0]}?)" if close else ""

@@ -225,6 +225,19 @@ def _one_wave(scale: Any) -> Any:
     return scale
 
 
+class _RubberEntry(Entry):
+    """A rubber, whose bulk modulus has no spectrum of its own."""
+
+    @classmethod
+    def unknown(cls, name: Any) -> str:
+        """Return what to say of a key that there is not; of k_i, what there is for the bulk modulus."""
+        said = super().unknown(name)
+        if not isinstance(name, str) or not any(word in name.lower() for word in ("bulk", "k_i", "kappa")):
+            return said
+        said = said if said.endswith(")") else f"{said} (did you mean bulk?)"
+        return f"{said}: the bulk modulus is elastic (k_i = 0) or proportional to the shear modulus (k_i = g_i)"
+
+
 def _sound(rubber: Any) -> Any:
     """Refuse a rubber whose entries do not go together."""
     try:
@@ -257,7 +270,7 @@ else:
     )
     Rubber = create_model(
         "Rubber",
-        __base__=Entry,
+        __base__=_RubberEntry,
         __doc__="A linear viscoelastic rubber, a spring and any number of Maxwell elements.",
         **keys(
             Material,

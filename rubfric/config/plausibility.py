@@ -47,7 +47,9 @@ def check_plausible(
     """
     refused: list[str] = []
     unlikely: list[str] = []
-    for found in (_moduli(material), _times(material), _heights(road), _loads(material, pressures)):
+    moduli = _moduli(material)
+    loads = [] if moduli else _loads(material, pressures)  # of another modulus they say nothing
+    for found in (moduli, _times(material), _heights(road), loads):
         for cannot_be, sentence in found:
             (refused if cannot_be else unlikely).append(sentence)
     if refused:
@@ -136,7 +138,7 @@ def _heights(road: Sequence[SineScale]) -> list[tuple[bool, str]]:
         elif 0.0 < slope < _FLAT:
             unit = f"in m, {1e3 * amplitude:.4g} mm" if length < 1e3 else "right, and the wavelength in µm"
             found.append((False, f"{at} has the slope {slope:.1g}, that of a mirror: is the amplitude {unit}?"))
-        if 0.0 < amplitude < _FINEST or length < _FINEST:
+        elif 0.0 < amplitude < _FINEST or length < _FINEST:
             found.append((False, f"{at} is finer than 0.1 µm: lengths are in mm, wavenumbers in rad/mm, not per m"))
     return found
 

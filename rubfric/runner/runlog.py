@@ -63,6 +63,8 @@ class RunLog(logging.Handler):
         Takes a rule; returns how long one of its jobs takes, s.
     at_once : callable
         Returns how many jobs may run at a time.
+    leftovers : callable
+        Removes what an earlier config made and this one does not, once tables are made; returns what to say of it.
     """
 
     def __init__(
@@ -78,12 +80,13 @@ class RunLog(logging.Handler):
         opening: Callable[[], list[str]] = list,
         expected: Callable[[str], float] | None = None,
         at_once: Callable[[], int] = lambda: 1,
+        leftovers: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__()
         self._results, self._path = results, Path(results) / "logs" / "run.log"
         self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
         self._dry, self._seconds, self._stream = dry, seconds, stream
-        self._opening, self._expected, self._at_once = opening, expected, at_once
+        self._opening, self._expected, self._at_once, self._leftovers = opening, expected, at_once, leftovers
         self._progress = Progress({})
         self._to_do = "To do: nothing"
         self._would: list[tuple[str, str]] = []
@@ -196,9 +199,10 @@ class RunLog(logging.Handler):
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
         finished = self._progress.finished
-        if {"scale_table", "total_table"} & set(finished) or "scene" not in finished:
+        made = {"scale_table", "total_table"} & set(finished)
+        if made or "scene" not in finished:
             lines += findings(self._tables)
-        return lines
+        return [*lines, *(self._leftovers() if made else [])]
 
     def _places(self) -> list[str]:
         first = [path for path in self._first if os.path.exists(path)]

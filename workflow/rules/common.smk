@@ -15,6 +15,7 @@ from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
+from rubfric.runner.leftovers import remove_leftovers
 from rubfric.runner.opening import Costs, understood
 from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
@@ -180,6 +181,22 @@ def criteria(campaign):
     }
 
 
+def made_for_a_config():
+    """Return what the present config makes that another may not, by rule."""
+    pages = [path.removesuffix("csv") + "html" for path in TABLES]
+    return {
+        **dict.fromkeys(["scale_table", "total_table"], [*TABLES, *pages]),
+        **dict.fromkeys(
+            ["campaign_figure", "field_figure", "total_figure", "whole_figure"]
+            + ["rig_figure", "rig_schematic", "march_figure"],
+            [*FIGURES, *MARCH_FIGURE],
+        ),
+        "rig_points": RIG_TABLES,
+        "claims": CLAIM_FILES,
+        **({} if WHOLE else {"whole_collection": []}),
+    }
+
+
 def follow(workflow):
     """Return the short log of this run, which follows Snakemake's own."""
     output = workflow.output_settings
@@ -205,6 +222,12 @@ def follow(workflow):
         opening=lambda: understood(CAMPAIGN, OWN_CAMPAIGN),
         expected=lambda rule: costs.job(rule, kind(rule)),
         at_once=lambda: workflow.resource_settings.cores or 1,
+        leftovers=lambda: remove_leftovers(
+            ".snakemake/metadata",
+            RESULTS,
+            [*made_for_a_config()],
+            [path for paths in made_for_a_config().values() for path in paths],
+        ),
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run

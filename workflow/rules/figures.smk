@@ -6,7 +6,7 @@ STUDY = CAMPAIGN.aspect_study and {
 }
 CAMPAIGN_FIGURES = {
     **({"fig1": STUDY, "fig3": STUDY} if STUDY else {}),
-    "fig6": {"aspect": CAMPAIGN.aspect},
+    "fig6": {"aspect": CAMPAIGN.aspect, "micro": bool(CAMPAIGN.claims)},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
 # The whole road: its friction, from the table of totals; and the block on it, light and heavy, slow to fast.

@@ -1,4 +1,5 @@
 # Tables of the campaign.
+TITLE = f"Friction of rubber {RUBBER} on road {ROAD}"
 TABLES = [
     *(f"{RESULTS}/tables/friction_scale_{scale}.csv" for scale in CAMPAIGN.scales),
     f"{RESULTS}/tables/friction_total.csv",
@@ -28,6 +29,8 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    params:
+        title=TITLE,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -38,6 +41,7 @@ rule scale_table:
             page=output.page,
             campaign=input.campaign,
             scale=int(wildcards.scale),
+            title=params.title,
         )
 
 
@@ -73,6 +77,7 @@ rule total_table:
         f"{RESULTS}/logs/tables/friction_total.log",
     params:
         road=CAMPAIGN.whole_parameters(),
+        title=TITLE,
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -84,6 +89,7 @@ rule total_table:
             campaign=input.campaign,
             whole=list(input.whole),
             road=params.road,
+            title=params.title,
         )
 
 
