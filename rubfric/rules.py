@@ -7,6 +7,7 @@ dataclasses of a scene as in the models of the config.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
@@ -20,6 +21,8 @@ SMALLEST, LARGEST = 1e-30, 1e30
 # Words become part of file names, which have room for 255 bytes; a path has 4096, the outputs take their share of it.
 LONGEST_WORD, LONGEST_NAME, LONGEST_PATH = 100, 255, 1000
 _LETTERS = "[A-Za-z0-9_-]+"
+# Faults of one list that are named.
+_MOST_FAULTS = 5
 # Where a rule does not know its key, which pydantic knows: see ``rubfric.config.entries``.
 HERE = "\0"
 
@@ -206,8 +209,9 @@ class Place(Rule):
         """Return a path that the system can take, that of a folder without a slash at its end."""
         if value is None and self.optional:
             return None
+        given, value = value, _expanded(key, value)
         if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-            raise InvalidInput(f"{key} is {shown(value)}, but must be the path of a {self.kind}, without braces")
+            raise InvalidInput(f"{key} is {shown(given)}, but must be the path of a {self.kind}, without braces")
         if len(os.fsencode(value)) > LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > LONGEST_NAME:
             raise InvalidInput(
                 f"{key} is {shown(value)}, but must have at most {LONGEST_PATH} letters, {LONGEST_NAME} a name"
@@ -217,6 +221,22 @@ class Place(Rule):
     def _schema(self) -> dict[str, Any]:
         kind = ["string", "null"] if self.optional else "string"
         return {"type": kind, "minLength": 1, "maxLength": LONGEST_PATH}
+
+
+def _expanded(key: str, value: Any) -> Any:
+    """Return a path in which ``~`` and environment variables stand for what they do in a shell."""
+    if not isinstance(value, str) or not {"~", "$"} & set(value):
+        return value
+    unset = [name for name in re.findall(r"\$(\w+)|\$\{(\w+)\}", value) if "".join(name) not in os.environ]
+    if unset:
+        name = "".join(unset[0])
+        raise InvalidInput(
+            f"{key} is {shown(value)}, but the environment variable {name} is not set; set it, or write out the path"
+        )
+    path = os.path.expanduser(os.path.expandvars(value))
+    if value.startswith("~") and path.startswith("~"):
+        raise InvalidInput(f"{key} is {shown(value)}, but there is no such user; write ./~ for a file of that name")
+    return path
 
 
 @dataclass(frozen=True)
@@ -246,7 +266,15 @@ class Items(Rule):
             raise InvalidInput(f"{key} is {shown(value)}, but must be a list of {of}s")
         if len(value) < self.least:
             raise InvalidInput(f"{key} is empty, but must hold at least one {of}")
-        items = [self.each.check(f"{key}[{place}]", item) for place, item in enumerate(value)]
+        items: list[Any] = []
+        faults: list[str] = []
+        for place, item in enumerate(value):
+            try:
+                items.append(self.each.check(f"{key}[{place}]", item))
+            except InvalidInput as error:
+                faults += error.faults
+        if faults:
+            raise InvalidInput(*faults[:_MOST_FAULTS])
         if self.distinct and len(set(items)) < len(items):
             again = next(place for place, item in enumerate(items) if item in items[:place])
             what = with_unit(items[again], getattr(self.each, "unit", ""))

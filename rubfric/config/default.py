@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from rubfric.config.models import Config
 from rubfric.config.overlay import read_yaml
@@ -11,6 +12,27 @@ from rubfric.config.overlay import read_yaml
 # In the project a link to config/config.yaml, in an installed package the file itself.
 PAPER = Path(__file__).resolve().with_name("default.yaml")
 _LOCAL = Path("config/config.yaml")
+
+
+def layers(given: Mapping[str, Any], above: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return the configs of a run of the workflow, each laid over the ones before.
+
+    Parameters
+    ----------
+    given : mapping
+        The config of the run, or of a module. One with every key takes the place of those it would be laid over.
+    above : mapping
+        What was given on the command line of the run, which the config of a module may hold already.
+    """
+    if not set(Config.model_fields) <= set(given):
+        return [*map(read_yaml, base_configs()), given]
+    return [given, above] if _holds(given, above) else [given]
+
+
+def _holds(config: Any, above: Any) -> bool:
+    if isinstance(config, Mapping) and isinstance(above, Mapping):
+        return all(key in config and _holds(config[key], value) for key, value in above.items())
+    return bool(config == above)
 
 
 def base_configs() -> list[Path]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rubfric.config import campaign as campaigns
-from rubfric.config.models import TRACTIONS, VirtualRig
+from rubfric.config.models import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 
 _REDUCE = """\
@@ -138,7 +138,7 @@ def _reduce(options: argparse.Namespace) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*options.configs(options.config or []))
-    virtual = _virtual(campaign.rig.virtual, options)
+    virtual = _virtual((campaign.rig or RigChoice()).virtual, options)
     from rubfric.results.campaign import read
     from rubfric.results.friction_map import FrictionMap
     from rubfric.results.scales import WORDS

@@ -10,6 +10,7 @@ from typing import Any
 from rubfric import checks
 from rubfric.config.models import VirtualRig
 from rubfric.config.overlay import read_yaml
+from rubfric.config.plausibility import check_area
 from rubfric.errors import InvalidInput
 from rubfric.rig.textfile import DECIMALS, SEPARATORS
 from rubfric.rig.units import QUANTITIES, check_factor
@@ -226,7 +227,7 @@ def _windows(key: str, value: Any) -> Windows:
 _READERS: dict[str, Any] = {
     "columns": _headings,
     "units": _units,
-    "area": rules(VirtualRig)["area"].check,
+    "area": lambda key, value: check_area(key, rules(VirtualRig)["area"].check(key, value)),
     "traction": rules(VirtualRig)["traction"].check,
     "sled_mass": rules(VirtualRig)["sled_mass"].check,
     "tare": _tare,

@@ -22,7 +22,7 @@ from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from rubfric.runner.findings import findings
-from rubfric.runner.progress import Failure, Progress, amounts, duration
+from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
 _SHORTEST, _LONGEST = 5.0, 60.0
@@ -62,6 +62,14 @@ class RunLog(logging.Handler):
         Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
         Where the lines go beside the file; None for nowhere.
+    opening : callable
+        Returns the lines that come first: what is understood of the config.
+    expected : callable, optional
+        Takes a rule; returns how long one of its jobs takes, s.
+    at_once : callable
+        Returns how many jobs may run at a time.
+    leftovers : callable
+        Removes what an earlier config made and this one does not, once tables are made; returns what to say of it.
     """
 
     def __init__(
@@ -77,13 +85,19 @@ class RunLog(logging.Handler):
         threads: Callable[[], bool] = lambda: True,
         seconds: Callable[[str], float | None] = lambda log: None,
         stream: TextIO | None = sys.stderr,
+        opening: Callable[[], list[str]] = list,
+        expected: Callable[[str], float] | None = None,
+        at_once: Callable[[], int] = lambda: 1,
+        leftovers: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__()
         self._results, self._path = results, Path(results) / "logs" / "run.log"
         self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
         self._rules, self._seconds, self._stream = rules, seconds, stream
         self._dry, self._touch, self._threads = dry, touch, threads
+        self._opening, self._expected, self._at_once, self._leftovers = opening, expected, at_once, leftovers
         self._progress = Progress({})
+        self._to_do = "To do: nothing"
         self._would: list[tuple[str, str]] = []
         # What this run has made; all there is is of this run or still valid where everything was asked for.
         self._outputs: dict[int, Collection[str]] = {}
@@ -120,7 +134,7 @@ class RunLog(logging.Handler):
         if self._begun:
             return
         self._begun = True
-        self._append([f"{_now()}  {' '.join(sys.argv)}"])
+        self._append([f"{_now()}  {' '.join(sys.argv)}", *(f"  {line}" for line in [*self._opening(), self._to_do])])
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
@@ -167,11 +181,16 @@ class RunLog(logging.Handler):
         if not own:
             return
         if not self._dry():
-            self._progress = Progress(planned)
+            self._progress = Progress(planned, expected=self._expected, at_once=self._at_once())
+            left = None if self._touch() else self._progress.remaining()
+            do = "To mark" if self._touch() else "To do"
+            self._to_do = f"{do}: {amounts(planned)}" + (f"; about {coarse(left)}" if left else "")
             slow = not (self._threads() or self._touch())
-            self._show([f"To {'mark' if self._touch() else 'do'}: {amounts(planned)}", *([_SLOW] if slow else [])])
+            self._show([*self._opening(), self._to_do, *([_SLOW] if slow else [])])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
-            self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
+            left = Progress(planned, expected=self._expected, at_once=self._at_once()).remaining()
+            about = f"; in about {coarse(left)}" if left else ""
+            self._show([*self._opening(), f"Would be made: {amounts(planned)}{about}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
         rule = self._own(about["rule_name"])
@@ -234,7 +253,8 @@ class RunLog(logging.Handler):
         """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
-        return lines + findings([path for path in self._tables if self._valid(path)])
+        lines += findings([path for path in self._tables if self._valid(path)])
+        return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
 
     def _places(self) -> list[str]:
         first = [path for path in self._first if self._valid(path)]

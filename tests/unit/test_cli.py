@@ -14,7 +14,8 @@ import pytest
 import rubfric
 from rubfric import cli
 from rubfric.config.campaign import load
-from rubfric.config.default import PAPER, base_configs
+from rubfric.config.default import PAPER, base_configs, layers
+from rubfric.config.overlay import read_yaml
 from rubfric.mechanics.block import contact
 from rubfric.results import dataset
 from rubfric.simulation import simulate
@@ -172,6 +173,16 @@ def test_config_of_the_working_folder_is_laid_over_the_default_unless_it_is_some
     ):
         local.write_text(text)
         assert base_configs() == found
+
+
+def test_complete_config_takes_the_place_of_the_default() -> None:
+    whole, mine = read_yaml(PAPER), {"grid": {"aspect": 0.5}}
+    assert layers(mine, mine)[-1] == mine
+    assert layers(mine, mine)[0] == whole
+    # That of a module may hold what the command line of the run gave, which is laid over it then, as elsewhere.
+    assert layers(whole, mine) == [whole]
+    merged = whole | {"grid": whole["grid"] | mine["grid"]}
+    assert layers(merged, mine) == [merged, mine]
 
 
 def test_reader_that_is_gone_is_no_error_and_files_are_written_all_the_same(tmp_path: Path) -> None:

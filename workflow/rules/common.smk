@@ -16,6 +16,9 @@ from rubfric.checks import written
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
+from rubfric.runner.leftovers import remove_leftovers
+from rubfric.runner.opening import Costs, understood
+from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import copy_of, stamp, stamp_files
 from rubfric.studies.accuracy.scenes import (
@@ -41,7 +44,7 @@ SOURCES = ".snakemake/sources"
 # Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
-    figures="2 Figures of the paper",
+    figures="2 Figures",
     tables="3 Tables",
     accuracy="4 Accuracy",
     stability="5 Stability",
@@ -152,7 +155,7 @@ def criteria(campaign):
     fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
-        "studied": list(campaign.aspect_study.pressures),
+        "studied": list(getattr(campaign.aspect_study, "pressures", ())),
         "profiled": {
             "scale": [fields.scale],
             "velocity": list(fields.velocities),
@@ -160,7 +163,7 @@ def criteria(campaign):
             "aspect": [campaign.aspect],
         },
         "difference": campaign.claims.difference,
-        "saturation": campaign.transient.saturation,
+        "saturation": campaign.procedure()["saturation"],
         "total_pressure": campaign.figures.total_pressure,
     }
 
@@ -171,6 +174,22 @@ def own_name(name):
     return name.removeprefix(before).removesuffix(after) or name
 
 
+def made_for_a_config():
+    """Return what the present config makes that another may not, by rule."""
+    pages = [path.removesuffix("csv") + "html" for path in TABLES]
+    return {
+        **dict.fromkeys(["scale_table", "total_table"], [*TABLES, *pages]),
+        **dict.fromkeys(
+            ["campaign_figure", "field_figure", "total_figure", "whole_figure"]
+            + ["rig_figure", "rig_schematic", "march_figure"],
+            [*FIGURES, *MARCH_FIGURE],
+        ),
+        "rig_points": RIG_TABLES,
+        "claims": CLAIM_FILES,
+        **({} if WHOLE else {"whole_collection": []}),
+    }
+
+
 def follow(workflow):
     """Return the short log of this run, which follows Snakemake's own."""
     output = workflow.output_settings
@@ -178,6 +197,7 @@ def follow(workflow):
     stream = sys.stdout if output.stdout else sys.stderr
     # A module may give its rules other names, and the workflow around it has rules of its own.
     own = {rule.name: own_name(rule.name) for rule in workflow.modifier.rules}
+    costs = Costs.of(CAMPAIGN)
     run = RunLog(
         RESULTS,
         targets=[own[rule.name] for rule in workflow.modifier.rules if not rule.output],
@@ -186,7 +206,7 @@ def follow(workflow):
         first=[
             f"{RESULTS}/{path}"
             for path in (
-                "claims.html",
+                *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
@@ -197,6 +217,15 @@ def follow(workflow):
         threads=lambda: workflow.use_threads,
         seconds=jobs.seconds,
         stream=None if Quietness.ALL in quiet else stream,
+        opening=lambda: understood(CAMPAIGN, OWN_CAMPAIGN),
+        expected=lambda rule: costs.job(rule, kind(rule)),
+        at_once=lambda: workflow.resource_settings.cores or 1,
+        leftovers=lambda: remove_leftovers(
+            ".snakemake/metadata",
+            RESULTS,
+            [*made_for_a_config()],
+            [path for paths in made_for_a_config().values() for path in paths],
+        ),
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run

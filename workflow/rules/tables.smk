@@ -1,4 +1,5 @@
 # Tables of the campaign.
+TITLE = f"Friction of rubber {RUBBER} on road {ROAD}"
 TABLES = [
     *(f"{RESULTS}/tables/friction_scale_{scale}.csv" for scale in CAMPAIGN.scales),
     f"{RESULTS}/tables/friction_total.csv",
@@ -29,6 +30,8 @@ rule scale_table:
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
     localrule: True
+    params:
+        title=TITLE,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -39,6 +42,7 @@ rule scale_table:
             page=output.page,
             campaign=input.campaign,
             scale=int(wildcards.scale),
+            title=params.title,
         )
 
 
@@ -75,6 +79,7 @@ rule total_table:
     localrule: True
     params:
         road=CAMPAIGN.whole_parameters(),
+        title=TITLE,
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -86,6 +91,7 @@ rule total_table:
             campaign=input.campaign,
             whole=list(input.whole),
             road=params.road,
+            title=params.title,
         )
 
 

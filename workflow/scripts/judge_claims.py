@@ -21,7 +21,7 @@ def main(
     totals: str,
     profiles: list[str],
     marches: list[str],
-    points: str,
+    points: list[str],
     readings: dict[str, list[str]],
     roads: dict[str, dict[str, Any]],
     criteria: dict[str, Any],
@@ -35,7 +35,7 @@ def main(
         Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
     campaign, totals, profiles, marches, points : str or list of str
         Paths of the collection of all scenes (netCDF), of the table of totals (CSV), of scenes and marches (netCDF),
-        and of the table of the test rig (CSV).
+        and of the table of the test rig (CSV), or nothing.
     readings : dict of str to list of str
         Paths of the observations (CSV) of each other reading.
     roads : dict
@@ -50,7 +50,7 @@ def main(
         read_table(totals, WORDS),
         map(load, profiles),
         map(load, marches),
-        read_table(points, ("run", "kind", "source")),
+        read_table(points[0], ("run", "kind", "source")) if points else None,
         {
             reading: pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
             for reading, paths in readings.items()

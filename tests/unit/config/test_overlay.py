@@ -57,7 +57,7 @@ def test_mapping_takes_the_place_of_a_file_and_is_left_as_it_is(tmp_path: Path) 
     assert overlaid([below, above], ()) == {"a": {"b": 1, "c": (3,)}, "d": 1}
     assert above == {"a": {"c": (3,)}}
     campaign = load()
-    assert load(PAPER, {"grid": {"aspect": 0.5}}) == replace(campaign, aspect=0.5)
+    assert load(PAPER, {"plane": "strain"}) == replace(campaign, plane="strain")
 
 
 def test_entries_of_the_command_line_are_the_numbers_they_were_written_as() -> None:
