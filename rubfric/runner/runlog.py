@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import datetime
 import logging
-import os
 import sys
 import threading
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -22,6 +21,8 @@ from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from rubfric.runner.findings import findings
+from rubfric.runner.lines import Lines
+from rubfric.runner.made import Made
 from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
@@ -91,18 +92,14 @@ class RunLog(logging.Handler):
         leftovers: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__()
-        self._results, self._path = results, Path(results) / "logs" / "run.log"
-        self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
-        self._rules, self._seconds, self._stream = rules, seconds, stream
+        path = Path(results) / "logs" / "run.log"
+        self._folder, self._targets, self._rules, self._seconds = path.parent, frozenset(targets), rules, seconds
         self._dry, self._touch, self._threads = dry, touch, threads
         self._opening, self._expected, self._at_once, self._leftovers = opening, expected, at_once, leftovers
         self._progress = Progress({})
         self._to_do = "To do: nothing"
         self._would: list[tuple[str, str]] = []
-        # What this run has made; all there is is of this run or still valid where everything was asked for.
-        self._outputs: dict[int, Collection[str]] = {}
-        self._made: set[str] = set()
-        self._everything = True
+        self._lines, self._made = Lines(path, stream), Made(results, tables, first)
         self._interrupted = self._begun = self._reported = False
         self._over = threading.Event()
         self._ticker: threading.Thread | None = None
@@ -121,9 +118,9 @@ class RunLog(logging.Handler):
                 case LogEvent.JOB_ERROR:
                     self._fail(about["jobid"], about["log"], about["aux"])
                 case LogEvent.GROUP_ERROR:
-                    self._report([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
+                    self._lines.report([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
                 case None if record.msg == NOTHING_TO_BE_DONE_MSG:
-                    self._show(self._places())
+                    self._lines.show(self._made.places())
             # Snakemake logs an interruption while it handles it, and the jobs' failures only after that.
             self._interrupted |= isinstance(sys.exception(), KeyboardInterrupt | SystemExit)
         except Exception:
@@ -134,7 +131,9 @@ class RunLog(logging.Handler):
         if self._begun:
             return
         self._begun = True
-        self._append([f"{_now()}  {' '.join(sys.argv)}", *(f"  {line}" for line in [*self._opening(), self._to_do])])
+        self._lines.append(
+            [f"{_now()}  {' '.join(sys.argv)}", *(f"  {line}" for line in [*self._opening(), self._to_do])]
+        )
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
@@ -144,14 +143,16 @@ class RunLog(logging.Handler):
             return
         progress = self._progress
         if self._touch():
-            self._report(
+            self._lines.report(
                 [
                     f"Nothing was computed: {progress.done()} marked as up to date (--touch), whatever config and code "
                     "they were made with"
                 ]
             )
             return
-        self._report([f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._places()])
+        self._lines.report(
+            [f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._made.places()]
+        )
 
     def fail(self) -> None:
         """Report what failed, where the reasons are, and what to do, if no outcome was reported yet."""
@@ -164,8 +165,8 @@ class RunLog(logging.Handler):
         lines = [f"Stopped after {duration(progress.elapsed)}: {what}; done: {progress.done()}"]
         lines += [_failed(failure) for failure in failures[:_MOST_FAILURES]]
         if len(failures) > _MOST_FAILURES:
-            lines.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._path.parent}")
-        self._report([*lines, "what is done stays; running again makes the rest"])
+            lines.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._folder}")
+        self._lines.report([*lines, "what is done stays; running again makes the rest"])
 
     def close(self) -> None:
         """End the log; a run that has begun and reported no outcome, as within a module, has failed."""
@@ -177,7 +178,7 @@ class RunLog(logging.Handler):
     def _plan(self, stats: Mapping[str, int]) -> None:
         own = {name: count for rule, count in stats.items() if rule != "total" and (name := self._own(rule))}
         planned = {rule: count for rule, count in own.items() if rule not in self._targets}
-        self._everything = "all" in own
+        self._made.everything = "all" in own
         if not own:
             return
         if not self._dry():
@@ -186,11 +187,11 @@ class RunLog(logging.Handler):
             do = "To mark" if self._touch() else "To do"
             self._to_do = f"{do}: {amounts(planned)}" + (f"; about {coarse(left)}" if left else "")
             slow = not (self._threads() or self._touch())
-            self._show([*self._opening(), self._to_do, *([_SLOW] if slow else [])])
+            self._lines.show([*self._opening(), self._to_do, *([_SLOW] if slow else [])])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
             left = Progress(planned, expected=self._expected, at_once=self._at_once()).remaining()
             about = f"; in about {coarse(left)}" if left else ""
-            self._show([*self._opening(), f"Would be made: {amounts(planned)}{about}", *_names(self._would)])
+            self._lines.show([*self._opening(), f"Would be made: {amounts(planned)}{about}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
         rule = self._own(about["rule_name"])
@@ -201,15 +202,15 @@ class RunLog(logging.Handler):
             self._would.append((rule, name))
         else:
             self.begin()
-            self._outputs[about["jobid"]] = about["output"]
+            self._made.start(about["jobid"], about["output"])
             self._progress.start(about["jobid"], rule, name, about["log"])
 
     def _finish(self, job: int) -> None:
         logs = self._progress.logs.get(job, ())
-        self._made.update(self._outputs.pop(job, ()))
+        self._made.finish(job)
         last_of_kind = self._progress.finish(job, self._seconds(logs[0]) if logs else None)
         if last_of_kind and not self._touch():
-            self._report([self._progress.line()])
+            self._lines.report([self._progress.line()])
         if self._progress.complete:
             self.succeed()
 
@@ -217,9 +218,9 @@ class RunLog(logging.Handler):
         failure = self._progress.fail(job, logs)
         if failure is None:
             return
-        self._append([f"  {_failed(failure)}"])
+        self._lines.append([f"  {_failed(failure)}"])
         if elsewhere:  # of what failed here Snakemake gives the reason at once
-            self._show([_failed(failure)])
+            self._lines.show([_failed(failure)])
 
     def _tick(self) -> None:
         last = ""
@@ -227,7 +228,7 @@ class RunLog(logging.Handler):
             with self.lock or contextlib.nullcontext():
                 line = self._progress.line()
             if line and line != last and not self._touch():
-                self._report([line])
+                self._lines.report([line])
             last = line
 
     def _stop(self) -> None:
@@ -245,45 +246,12 @@ class RunLog(logging.Handler):
         """Return the name of one of the workflow's own rules, or None for another one."""
         return rule if self._rules is None else self._rules.get(rule)
 
-    def _valid(self, path: str) -> bool:
-        """Return whether a result is of this run, or was found up to date by it."""
-        return os.path.exists(path) and (self._everything or path in self._made)
-
     def _outcome(self) -> list[str]:
         """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
-        lines += findings([path for path in self._tables if self._valid(path)])
+        lines += findings(self._made.tables())
         return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
-
-    def _places(self) -> list[str]:
-        first = [path for path in self._first if self._valid(path)]
-        opened = [f"open first: {', '.join(first)}"] if first else []
-        kinds = {"tables": "tables", "figures": "figures", "fields": "scenes", "marches": "marches"}
-        folders = {what: f"{self._results}/{name}" for what, name in kinds.items()}
-        made = {os.path.dirname(path) for path in self._made}
-        places = [
-            f"{what} in {folder}"
-            for what, folder in folders.items()
-            if self._valid(folder) or any(f"{place}/".startswith(f"{folder}/") for place in made)
-        ]
-        return [*opened, *([", ".join(places).replace(" in ", " are in ", 1)] if places else [])]
-
-    def _report(self, lines: Sequence[str]) -> None:
-        self._show(lines)
-        self._append([f"  {line}" for line in lines])
-
-    def _show(self, lines: Iterable[str]) -> None:
-        if self._stream is not None:
-            with contextlib.suppress(OSError, ValueError):  # a terminal that is gone
-                self._stream.write("".join(f"  {line}\n" for line in lines))
-                self._stream.flush()
-
-    def _append(self, lines: Iterable[str]) -> None:
-        with contextlib.suppress(OSError):  # the jobs report a full disk
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            with self._path.open("a", encoding="utf-8") as stream:
-                stream.write("".join(f"{line}\n" for line in lines))
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:
