@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from rubfric.config import campaign as campaigns
-from rubfric.config.models import TRACTIONS, RigChoice, VirtualRig
 from rubfric.config.plausibility import check_area
+from rubfric.config.rig import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 
 _REDUCE = """\
