@@ -19,7 +19,6 @@ from rubfric.config.models import (
     ClaimsChoice,
     Config,
     FigureChoice,
-    RigChoice,
     TransientChoice,
     wavenumber,
 )
@@ -36,6 +35,7 @@ from rubfric.config.references import (
     scale_number,
     study_of,
 )
+from rubfric.config.rig import RigChoice
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError, model_
 
 from rubfric.checks import known_keys, shown, unknown_key
 from rubfric.errors import InvalidInput
-from rubfric.rules import HERE, Rule, Word, rules
+from rubfric.rules import HERE, Items, Number, Rule, Word, rules
 
 
 class Entry(BaseModel):
@@ -185,3 +185,16 @@ def keys(source: type, names: Iterable[str], defaults: Mapping[str, Any] = Mappi
         Defaults of keys that may be left out, by name; the others are required.
     """
     return {name: (Annotated[Any, rules(source)[name]], defaults.get(name, ...)) for name in names}
+
+
+def grid_values(about: str, unit: str = "") -> Items:
+    """Return the rule of a list of positive numbers, no two alike.
+
+    Parameters
+    ----------
+    about : str
+        What the key means.
+    unit : str
+        Nothing for dimensionless numbers.
+    """
+    return Items(about, Number(unit=unit))

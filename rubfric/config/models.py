@@ -14,31 +14,27 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import create_model, model_validator
 
-from rubfric.config.entries import Catalogue, Entry, Named, Scales, keys
+from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
 from rubfric.config.multiscale import WAYS
+from rubfric.config.place import Place
+from rubfric.config.rig import RigChoice
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Word, rules
+from rubfric.rules import HERE, Choice, Integer, Items, Number, Word, rules
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
 from rubfric.scene.procedure import Procedure, check_wavelengths
 from rubfric.scene.scene import KINEMATICS
 
-# Where the sensor of traction sits.
-TRACTIONS = ("rubber", "rope")
 # The name under which the campaign itself is judged, beside its readings.
 AS_CONFIGURED = "campaign"
-
-
-def _grid(about: str, unit: str = "") -> Items:
-    return Items(about, Number(unit=unit))
 
 
 class Grid(Entry):
     """Every scale of the road is run at every one of these velocities and pressures."""
 
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures on the top of the block.", "MPa")]
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")]
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures on the top of the block.", "MPa")]
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
 
 
@@ -55,18 +51,18 @@ class PhasesChoice(Entry):
 class AspectStudy(Entry):
     """Height-to-width ratios to compare, at the velocities of the grid."""
 
-    aspects: Annotated[tuple[float, ...], _grid("Height-to-width ratios.")]
+    aspects: Annotated[tuple[float, ...], grid_values("Height-to-width ratios.")]
     scales: Annotated[
         tuple[int, ...], Items("Numbers of the scales of the road to study, 1 being the first under roads.", Integer())
     ] = (1,)
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures of the study.", "MPa")] = ()
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures of the study.", "MPa")] = ()
 
 
 class TransientChoice(Entry):
     """Press and slide in time, for Fig. 5, at the aspect of the grid."""
 
     scale: Annotated[int, Integer("Number of the scale.")] = 1
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")] = ()
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")] = ()
     pressure: Annotated[float, Number("Nominal pressure.", "MPa")] = 0.0
     start: Annotated[str, rules(Procedure)["start"]] = "pressed"
     columns: Annotated[int, rules(Procedure)["columns"]] = 64
@@ -88,8 +84,8 @@ class Fields(Entry):
     """Scenes whose fields are drawn, Figs 2 and 4."""
 
     scale: Annotated[int, Integer("Number of the scale.")] = 1
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds, out of the grid's.", "mm/s")] = ()
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures, out of the grid's.", "MPa")] = ()
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds, out of the grid's.", "mm/s")] = ()
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures, out of the grid's.", "MPa")] = ()
 
 
 class FigureChoice(Entry):
@@ -99,63 +95,6 @@ class FigureChoice(Entry):
         float, Number("Nominal pressure of Fig. 7, the total over the scales; one of the grid's.", "MPa")
     ] = 0.0
     fields: Fields = Fields()
-
-
-class VirtualRig(Entry):
-    """Virtual rig, whose weights the program chooses so that speeds span what was simulated."""
-
-    area: Annotated[float, Number("Nominal area of the rubber.", "mm²")] = 100.0
-    traction: Annotated[
-        str,
-        Choice(
-            "Where the sensor of traction sits, at the rubber or in the rope, where it also reads the drag of the "
-            "bearings and what accelerates the sled.",
-            TRACTIONS,
-        ),
-    ] = "rubber"
-    sled_mass: Annotated[float, Number("Mass of the sled with the road.", "kg")] = 5.0
-    heaviest_weight: Annotated[float, Number("Heaviest weight that may hang from the rope.", "kg")] = 100.0
-    travel: Annotated[float, Number("Travel of the sled.", "mm")] = 300.0
-    bearing_force: Annotated[float, Number("Drag of the bearings without a load.", "N", low=0.0)] = 0.5
-    bearing_coefficient: Annotated[float, Number("Drag of the bearings per normal force.", low=0.0)] = 0.005
-    force_noise: Annotated[float, Number("Standard deviation of the noise of both forces.", "N", low=0.0)] = 0.2
-    displacement_noise: Annotated[
-        float, Number("Standard deviation of the noise of the displacement.", "mm", low=0.0)
-    ] = 0.002
-    displacement_step: Annotated[
-        float, Number("Step of the readings of the displacement; 0 for none.", "mm", low=0.0)
-    ] = 0.005
-    sampling: Annotated[
-        float, Number("Samples per second; slow runs are sampled more slowly.", "Hz", low=100.0, high=1e6)
-    ] = 5000.0
-    seed: Annotated[int, Integer("Seed of the noise.", 0, 2**31)] = 2019
-
-
-class RigChoice(Entry):
-    """Test rig of Figs 8 and 9, measured or virtual."""
-
-    data: Annotated[
-        tuple[str, ...],
-        Items(
-            "Files of measured runs, CSV tables of time, normal force, traction and displacement; while there are "
-            "none, a virtual rig measures what was simulated.",
-            Place(),
-            least=0,
-            ascending=False,
-        ),
-    ] = ()
-    columns: Annotated[
-        str | None,
-        Place(
-            "YAML file that names their columns and the area of the rubber, see docs/rig.md; null where there is none.",
-            optional=True,
-        ),
-    ] = None
-    pressures: Annotated[
-        tuple[float, ...], _grid("Nominal pressures at which Fig. 9 shows friction over speed.", "MPa")
-    ] = ()
-    speeds: Annotated[tuple[float, ...], _grid("Speeds at which Fig. 9 shows friction over pressure.", "mm/s")] = ()
-    virtual: VirtualRig = VirtualRig()
 
 
 class Reading(Entry):

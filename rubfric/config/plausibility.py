@@ -21,8 +21,8 @@ _STIFFEST, _NO_SOLID, _RELAXED, _GLASS = 1e5, 1e6, (1e-2, 200.0), 2e4
 _CENTURIES, _YEAR, _MOLECULE = 1e10, 3.15e7, 1e-15
 # Slopes, dimensionless: of 84 degrees, of 72 degrees, and of a mirror; mm: 0.1 micrometres.
 _CLIFF, _STEEP, _FLAT, _FINEST = 10.0, 3.0, 1e-3, 1e-4
-# MPa: ten times what a tyre or a sealing ring meets. Loss factor of an elastic solid. mm²: a square of 0.1 mm.
-_HEAVY, _LOSSLESS, _SMALLEST_AREA = 50.0, 1e-3, 1e-2
+# MPa: ten times what a tyre or a sealing ring meets. Loss factor of an elastic solid. mm²: a square of 0.3 mm.
+_HEAVY, _LOSSLESS, _SMALLEST_AREA = 50.0, 1e-3, 0.1
 
 
 def check_plausible(

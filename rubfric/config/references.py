@@ -13,9 +13,9 @@ from rubfric.config.models import (
     Fields,
     FigureChoice,
     Grid,
-    RigChoice,
     TransientChoice,
 )
+from rubfric.config.rig import RigChoice
 from rubfric.errors import InvalidInput
 from rubfric.rules import Choice, Integer
 from rubfric.scene.numerics import PRESET_KEYS, Numerics

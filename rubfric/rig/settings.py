@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.models import VirtualRig
 from rubfric.config.overlay import read_yaml
 from rubfric.config.plausibility import check_area
+from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.rig.textfile import DECIMALS, SEPARATORS
 from rubfric.rig.units import QUANTITIES, check_factor

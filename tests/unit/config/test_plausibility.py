@@ -105,6 +105,6 @@ def test_shares_that_leave_nothing_but_round_off_are_refused(fractions: tuple[fl
 
 
 def test_area_in_square_metres_is_refused() -> None:
-    assert check_area("area", 0.01) == 0.01
+    assert check_area("area", 0.1) == 0.1
     with pytest.raises(InvalidInput, match=r"area is 0.0001 mm², .* it is probably in m², 100 mm²"):
         check_area("area", 1e-4)

@@ -80,6 +80,7 @@ def test_settings_come_from_the_yaml_file(simulated: Path, tmp_path: Path, capsy
         (["reduce", "absent.csv", "--area", 1], 2, "absent.csv"),
         (["reduce", "RUN"], 2, "area is not given, but pressure needs the nominal area of the rubber, mm²"),
         (["reduce", "RUN", "--area", -1], 2, "area is -1 mm², but must be greater than 0"),
+        (["reduce", "RUN", "--area", 1e-4], 2, "mm²: it is probably in m², 100 mm²"),
         (["reduce", "RUN", "--area", 1, "--traction", "rope"], 2, "traction is rope, so sled_mass must be given"),
         (["reduce", "RUN", "--columns", "absent.yaml"], 2, "absent.yaml"),
         (["simulate", "--pressure", 9, "--weight", 1, "-o", "x.csv"], 2, "pressure is 9 MPa, but must lie within"),
