@@ -13,7 +13,7 @@ from itertools import product
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.default import PAPER
+from rubfric.config.default import over_default
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -304,8 +304,8 @@ class Campaign:
 def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
     """Read one or more configs, each laid over the ones before, and check the whole.
 
-    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml. Without
-    any it is the paper's campaign.
+    A first one that is not complete is laid over the paper's campaign, which the package holds: ``load("mine.yaml")``
+    and ``load({"plane": "strain"})`` need the changes only, and ``load()`` is the paper's.
 
     Parameters
     ----------
@@ -319,6 +319,6 @@ def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    campaign = Campaign.from_config(overlaid(configs or [PAPER], Config.model_fields))
+    campaign = Campaign.from_config(overlaid(over_default(*configs), Config.model_fields))
     campaign.unlikely()
     return campaign

@@ -58,6 +58,9 @@ def test_mapping_takes_the_place_of_a_file_and_is_left_as_it_is(tmp_path: Path) 
     assert above == {"a": {"c": (3,)}}
     campaign = load()
     assert load(PAPER, {"plane": "strain"}) == replace(campaign, plane="strain")
+    assert load({"plane": "strain"}) == load(PAPER, {"plane": "strain"})
+    assert load(write(tmp_path, "plane: strain\n")) == load({"plane": "strain"})
+    assert load(read_yaml(PAPER)) == campaign
 
 
 def test_entries_of_the_command_line_are_the_numbers_they_were_written_as() -> None:
