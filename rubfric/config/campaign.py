@@ -43,6 +43,11 @@ from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
 
 
+def _span(values: tuple[float, ...]) -> str:
+    """Return the first and the last of ascending numbers, or the only one."""
+    return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
+
+
 @dataclass(frozen=True)
 class Campaign:
     """All that a config asks for.
@@ -297,11 +302,6 @@ class Campaign:
             for pressure, velocity in product(chosen.pressures, chosen.velocities)
         )
         return {scene.name: scene for scene in scenes}
-
-
-def _span(values: tuple[float, ...]) -> str:
-    """Return the first and the last of ascending numbers, or the only one."""
-    return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
 
 
 def load(*paths: str | os.PathLike[str]) -> Campaign:
