@@ -38,7 +38,7 @@ def test_file_is_read_whole(tmp_path: Path) -> None:
     assert found.bearing == Bearing(coefficient=0.004, file=str(tmp_path / "pull.csv"))
     assert found.windows == Windows(least_travel=2.0, least_samples=40)
     assert found.calibration == {"normal": 0.005, "traction": 0.0, "displacement": 0.001}
-    assert (found.area, found.traction, found.sled_mass, found.decimal) == (100.0, "rope", 5.0, "comma")
+    assert (found.area, found.traction, found.sled_mass, found.form.decimal) == (100.0, "rope", 5.0, "comma")
 
 
 def test_options_lie_above_the_file(tmp_path: Path) -> None:
@@ -62,7 +62,7 @@ def test_options_lie_above_the_file(tmp_path: Path) -> None:
         ("bearing: {force: 1, file: a.csv}", "bearing has both a force and a file"),
         ("bearing: {force: -1}", "bearing.force is -1, but must be at least 0"),
         ("columns: {load: Fz}", "columns has the unknown key 'load'; allowed are time, normal, "),
-        ("columns: {normal: 3}", "columns.normal is 3, but must be the heading of a column"),
+        ("columns: {normal: 0}", "columns.normal is 0, but must be the heading of a column, or its number from 1 on"),
         ("units: {normal: V}", "units.normal is 'V', but must be one of N, kN"),
         ("windows: {least_samples: 5}", "windows.least_samples is 5, but must be a whole number of at least 20"),
         ("windows: {drift: 2}", "windows.drift is 2, but must lie between 0 and 1, both excluded"),
