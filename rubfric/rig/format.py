@@ -42,7 +42,7 @@ AS_FOUND = Format()
 
 def _encoding(key: str, value: Any) -> str:
     try:
-        b"".decode(value)
+        b"a".decode(value)
     except (LookupError, TypeError, ValueError) as error:
         raise InvalidInput(
             f"{key} is {checks.shown(value)}, but must be the name of an encoding, such as utf-8 or shift_jis"

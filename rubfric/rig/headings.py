@@ -212,17 +212,20 @@ class _Search:
         if quantity == "displacement" and "displacement" not in self.named:
             kinds = " (the position of the sled, which falls again where it moves back, not the way in all)"
         # The way in all is never shorter than the range of the places.
-        likely = min(
-            places,
-            key=lambda place: (
-                float(np.nanmax(self.table.values[:, place]) - np.nanmin(self.table.values[:, place])) if kinds else 0.0
-            ),
-        )
+        likely = min(places, key=self._range) if kinds else places[0]
         return (
             f"{self.path} has {len(places)} columns{named} that may be {quantity}{kinds}, and they differ: "
             f"{self._shown(places)}; write which one in the YAML file of --columns, as in columns: "
             f"{{{quantity}: {likely + 1}}}"
         )
+
+    def _range(self, place: int) -> float:
+        """Return the range of a displacement, mm, or infinity where its unit is not known."""
+        values = self.table.values[:, place]
+        try:
+            return float(np.nanmax(values) - np.nanmin(values)) * self._scale("displacement", place)[0]
+        except InvalidInput:
+            return np.inf
 
     def _shown(self, places: Sequence[int] | None = None) -> str:
         """Return headings as messages list them; chosen ones with their numbers."""

@@ -8,10 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from rubfric.arrays import Real
+from rubfric.errors import InvalidInput
+from rubfric.rig.format import Format
 from rubfric.rig.layout import Layout
 from rubfric.rig.numerals import number
 
-_TITLE = "LabVIEW Measurement"
+_TITLE, _END = "LabVIEW Measurement", "***End_of_Header***"
 _SEPARATORS, _DECIMALS = {"tab": "tab", "comma": "comma"}, {".": "point", ",": "comma"}
 
 
@@ -23,11 +25,38 @@ def _entries(lines: Sequence[str]) -> dict[str, list[str]]:
     return {fields[0].strip(): fields for fields in (line.split(mark) for line in lines)}
 
 
-def marks(lines: Sequence[str]) -> tuple[str | None, str | None]:
-    """Return separator and decimal mark as ``rubfric.rig.textfile.Format`` names them; None where they are not said."""
+def completed(path: str, lines: Sequence[str], form: Format) -> Format:
+    """Return a format with the separator, the decimal mark and the line of the headings that a file's header says.
+
+    Parameters
+    ----------
+    path : str
+        The file, for messages.
+    lines : sequence of str
+    form : Format
+        What the user says, which comes first.
+
+    Raises
+    ------
+    InvalidInput
+        For several segments of measurement, unless the user names the headings of one.
+    """
     said = _entries(lines[:20])
     separator, decimal = (said.get(key, ["", ""])[1].strip() for key in ("Separator", "Decimal_Separator"))
-    return _SEPARATORS.get(separator.casefold()), _DECIMALS.get(decimal)
+    ends = [place for place, line in enumerate(lines[:-1]) if said and line.startswith(_END)]
+    tops = [place + 2 for place in ends if lines[place + 1].startswith("X_Value")]
+    if len(tops) > 1 and form.headings is None:
+        raise InvalidInput(
+            f"{path} holds {len(tops)} segments of measurement, whose headings are in lines "
+            f"{', '.join(map(str, tops[:8]))}{', ...' if len(tops) > 8 else ''}: write the line of one of them under "
+            "headings in the YAML file of --columns"
+        )
+    return replace(
+        form,
+        separator=form.separator or _SEPARATORS.get(separator.casefold()),
+        decimal=form.decimal or _DECIMALS.get(decimal),
+        headings=form.headings or (tops[0] if tops else None),
+    )
 
 
 def named(lines: Sequence[str], layout: Layout) -> Layout:

@@ -17,6 +17,7 @@ from rubfric.rig.units import heading_words, is_unit, unit_of
 _LOOKED_AT, _MOST_HEADINGS, _FEWEST = 1000, 6, 3
 _COMMENT = re.compile(r"^\s*(?:[#%]+|//)\s*")
 _BLANKS, _WIDE_BLANKS = re.compile(r"[ \t]+"), re.compile(r" {2,}|\t+")
+_BRACKETS = re.compile(r"\S.*?[\])}](?=\s|$)")
 _LABEL = re.compile(r"(y_?)?(unit|einheit|unité|unidad|単位|单位)", re.IGNORECASE)
 
 Row = list[str]
@@ -138,7 +139,7 @@ def _first(rows: Sequence[Row], below: int, places: Sequence[int]) -> tuple[int,
     widths = Counter(len(row) for row in rows[below:] if _is_like(row, places))
     first = next(place for place in range(below, len(rows)) if _is_like(rows[place], places))
     # Rows of words and numbers right above it belong to the table: they are not to be passed over in silence.
-    while first - 1 >= below and len(rows[first - 1]) >= len(places) and any(map(looks_numeric, rows[first - 1])):
+    while first - 1 >= below and sum(map(looks_numeric, rows[first - 1])) > 1:
         first -= 1
     return first, widths.most_common(1)[0][0]
 
@@ -197,8 +198,10 @@ def _fitting(path: str, kind: str, line: str, row: Row, top: int, first: int, wi
     row = [_COMMENT.sub("", row[0]), *row[1:]] if row else [""]
     if kind == "space":
         row = row if row[0] else row[1:]
-        wide = _WIDE_BLANKS.split(_COMMENT.sub("", line).strip())
-        row = wide if len(row) != width == len(wide) else row
+        text = _COMMENT.sub("", line).strip()
+        # Blanks within headings: those are two or more blanks apart, or each ends with its unit in brackets.
+        for others in (_WIDE_BLANKS.split(text), _BRACKETS.findall(text)):
+            row = others if len(row) != width == len(others) else row
     if len(row) < width or (kind == "space" and len(row) > width):
         why = (
             "; a comma that separates fields cannot mark decimals too: export with semicolons"

@@ -141,6 +141,11 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
         _check_zero(record, zero, sliding, settings.traction == "rope")
     levels = normal[sliding] if sliding.any() else normal
     plateau = float(np.percentile(np.abs(levels), 75.0)) * (1.0 if np.median(levels) >= 0.0 else -1.0)
+    if plateau == 0.0:
+        raise InvalidInput(
+            f"{record.name} has no normal force in sliding: {np.median(record.normal):.4g} N, of which the tare takes "
+            "all; a known constant load is given as normal: and the force in N in the YAML file of --columns"
+        )
     if plateau < 0.0:
         normal, plateau = -normal, -plateau
         notes.append("sign of the normal force turned: it is negative under load")

@@ -6,7 +6,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import translate
 
 import numpy as np
@@ -23,7 +23,7 @@ from rubfric.rig.numerals import decimal_mark, looks_numeric, number
 # Rows with an unreadable field: at most so many with words of one form, and at most this share of all rows.
 _ALIKE, _MOST_UNREADABLE = 2, 0.01
 # Most lines that a heading in quotation marks may have.
-_TALLEST = 4
+_TALLEST = 40
 _FIRST_LINES = 50
 
 
@@ -83,8 +83,7 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
     """
     text, guess = decode(path, form.encoding, names)
     lines = _lines(text)
-    separator, decimal = labview.marks(lines)
-    form = replace(form, separator=form.separator or separator, decimal=form.decimal or decimal)
+    form = labview.completed(path, lines, form)
     layout = labview.named(lines, find_layout(path, lines, names, form.separator, form.headings))
     top = layout.heading_line or layout.rows[0][0]
     above = tuple(lines[: top - 1])
@@ -94,7 +93,7 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
     notes += [f"{layout.repeated} repeated lines of headings left out"] if layout.repeated else []
     words = len(layout.rows) - len(rows)
     notes += [f"{words} lines without numbers left out below the headings"] if words else []
-    time = labview.times(above, len(values))
+    time = labview.times(lines[:top], len(values))
     if time is not None:
         headings, units, values = (*headings, "time"), (*units, "s"), np.column_stack([values, time])
         unreadable = np.column_stack([unreadable, np.zeros(len(values), dtype=bool)])
@@ -105,15 +104,19 @@ def _lines(text: str) -> list[str]:
     """Return the lines of a text; one field of the headings in quotation marks may have been written over several."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     for place, line in enumerate(lines[:_FIRST_LINES]):
-        if line.count('"') % 2 == 0 or looks_numeric(re.split(r"[\t;,|]", line)[0]):
-            continue
-        for end in range(place + 2, min(place + _TALLEST, len(lines)) + 1):
-            joined = " ".join(lines[place:end])
-            if joined.count('"') % 2 == 0:
-                # The number of lines stays, so that messages name the right ones.
-                lines[place:end] = [*[""] * (end - place - 1), joined]
-                break
+        quotes = line.count('"') * (not _begins_numeric(line))
+        end = place + 1
+        while quotes % 2 and end < min(place + _TALLEST, len(lines)) and not _begins_numeric(lines[end]):
+            quotes += lines[end].count('"')
+            end += 1
+        if quotes % 2 == 0 and end > place + 1:
+            # The number of lines stays, so that messages name the right ones.
+            lines[place:end] = [*[""] * (end - place - 1), " ".join(lines[place:end])]
     return lines
+
+
+def _begins_numeric(line: str) -> bool:
+    return looks_numeric(re.split(r"[\t;,|]", line)[0])
 
 
 def _numbers(
