@@ -57,7 +57,7 @@ def clock_times(where: str, words: Sequence[str]) -> Real:
     for word, one in zip(words, found, strict=True):
         if one is None and looks_like_clock(word):
             raise InvalidInput(
-                f"{where} holds the time {word.strip()[:40]!r}, which may be read in more than one way: export times "
+                f"{where} holds the time {word.strip()[:40]!r}, which cannot be read without a guess: export times "
                 "as seconds, as hh:mm:ss, or as yyyy-mm-dd hh:mm:ss"
             )
     dated = {one["year"] is not None for one in found if one}

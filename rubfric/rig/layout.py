@@ -136,8 +136,8 @@ def _body(rows: Sequence[Row]) -> tuple[tuple[int, ...], int]:
 
 def _first(rows: Sequence[Row], below: int, places: Sequence[int]) -> tuple[int, int]:
     """Return the first row that is like most, with words where those have words, and how many fields rows have."""
-    widths = Counter(len(row) for row in rows[below:] if _is_like(row, places))
     first = next(place for place in range(below, len(rows)) if _is_like(rows[place], places))
+    widths = Counter(len(row) for row in rows[first : first + _LOOKED_AT] if _is_like(row, places))
     # Rows of words and numbers right above it belong to the table: they are not to be passed over in silence.
     while first - 1 >= below and sum(map(looks_numeric, rows[first - 1])) > 1:
         first -= 1
