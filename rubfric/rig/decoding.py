@@ -58,6 +58,8 @@ def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, 
         content = stream.read()
     known = encoding or next((name for mark, name in _MARKS.items() if content.startswith(mark)), None)
     known = known or _of_two_bytes(content)
+    # A logger that lost its power leaves zeros, others an end-of-file mark.
+    content = content if known else content.rstrip(b"\0\x1a")
     if known is None and (b"\0" in content or content.startswith(b"PK\3\4")):
         raise InvalidInput(f"{path} is no text file: export the record as text (CSV)")
     try:

@@ -28,6 +28,8 @@ class Format:
         Line of the headings, from 1.
     missing : tuple of str
         Words that mean no value, besides the usual ones; ``*`` is for any characters.
+    overloaded : tuple of str
+        Words that mean an input beyond its range, likewise.
     """
 
     separator: str | None = None
@@ -35,6 +37,7 @@ class Format:
     encoding: str | None = None
     headings: int | None = None
     missing: tuple[str, ...] = ()
+    overloaded: tuple[str, ...] = ()
 
 
 AS_FOUND = Format()
@@ -50,11 +53,11 @@ def _encoding(key: str, value: Any) -> str:
     return str(value)
 
 
-def _missing(key: str, value: Any) -> tuple[str, ...]:
+def _words(key: str, value: Any) -> tuple[str, ...]:
     words = value if isinstance(value, list) else [value]
     for word in words:
         if not isinstance(word, (str, int, float)) or isinstance(word, bool):
-            raise InvalidInput(f"{key} is {checks.shown(value)}, but must be a list of words that mean no value")
+            raise InvalidInput(f"{key} is {checks.shown(value)}, but must be a list of words as the file has them")
     return tuple(map(str, words))
 
 
@@ -64,5 +67,6 @@ FORMAT: dict[str, Any] = {
     "decimal": Choice(words=DECIMALS).check,
     "encoding": _encoding,
     "headings": Integer().check,
-    "missing": _missing,
+    "missing": _words,
+    "overloaded": _words,
 }

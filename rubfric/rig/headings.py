@@ -152,6 +152,9 @@ class _Search:
         text = str(wanted).strip()
         exact = [place for place, heading in enumerate(headings) if isinstance(wanted, str) and text == heading.strip()]
         bare = [place for place, heading in enumerate(headings) if text == split_heading(heading)[0].strip()]
+        bare = bare or [
+            place for place, heading in enumerate(headings) if heading_words(text) == heading_words(heading)
+        ]
         ordinal = _ORDINAL.fullmatch(text)
         if exact or (bare and isinstance(wanted, str)):
             return exact or bare

@@ -8,7 +8,7 @@ from rubfric.rig.units import heading_words
 
 USUAL = {
     "time": {"time", "t", "zeit", "elapsed", "elapsed time", "relative time", "timestamp", "test time", "temps"}
-    | {"tiempo", "tempo", "时间", "時間", "시간", "время"},
+    | {"testzeit", "prüfzeit", "tiempo", "tempo", "时间", "時間", "시간", "время"},
     "normal": {"normal", "normal force", "normal load", "vertical force", "vertical load", "load", "fn", "f n", "fz"}
     | {"f z", "n", "normalkraft", "axial force", "force normale", "fuerza normal", "垂直荷重", "荷重", "法向力"}
     | {"载荷", "하중", "нормальная сила", "нагрузка"},
@@ -16,6 +16,7 @@ USUAL = {
     | {"horizontal force", "rope force", "ft", "f t", "fx", "f x", "reibkraft", "zugkraft", "pull", "drag"}
     | {"pulling force", "force de frottement", "摩擦力", "마찰력", "сила трения"},
     "displacement": {"x", "s", "weg", "pos", "disp", "extension", "crosshead", "crosshead displacement"}
+    | {"standardweg", "traverse", "traversenweg"}
     | {"déplacement", "desplazamiento", "変位", "位移", "변위", "перемещение"},
 }
 _TYPICAL = {

@@ -42,7 +42,7 @@ def is_mark(word: str) -> bool:
     return plain(word).casefold() in _MISSING | _OVERLOADED
 
 
-def number(word: str, mark: str, missing: re.Pattern[str] | None = None) -> float | None:
+def number(word: str, mark: str, special: re.Pattern[str] | None = None) -> float | None:
     """Return a number, NaN for a missing one, infinity for an overloaded input, or None for anything else.
 
     Parameters
@@ -50,12 +50,12 @@ def number(word: str, mark: str, missing: re.Pattern[str] | None = None) -> floa
     word : str
     mark : {".", ","}
         Before decimals; the other mark, apostrophes and blanks may part thousands.
-    missing : re.Pattern, optional
-        Of more words for a missing value.
+    special : re.Pattern, optional
+        Of more words: for a missing value in its first group, for an overloaded input in its second.
     """
     text = plain(word)
-    if missing and missing.match(text):
-        return math.nan
+    if special and (found := special.fullmatch(text)):
+        return math.inf if found[1] is None else math.nan
     try:
         return float(text) if mark == "." and text[-1:].isdigit() and "_" not in text else _number(text, mark)
     except ValueError:

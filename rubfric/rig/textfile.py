@@ -7,7 +7,6 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fnmatch import translate
 
 import numpy as np
 
@@ -90,7 +89,7 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
     rows, values, unreadable, clocks = _numbers(path, layout, form)
     headings, units = layout.headings, layout.units
     notes = [guess] if guess else []
-    notes += [f"{layout.repeated} repeated lines of headings left out"] if layout.repeated else []
+    notes += layout.notes
     words = len(layout.rows) - len(rows)
     notes += [f"{words} lines without numbers left out below the headings"] if words else []
     time = labview.times(lines[:top], len(values))
@@ -130,7 +129,7 @@ def _numbers(
         if any(looks_numeric(word) or looks_like_clock(word) for word in row)
     ]
     mark = DECIMALS[form.decimal] if form.decimal else decimal_mark(path, (word for _, row in rows for word in row))
-    missing = re.compile("|".join(map(translate, form.missing))) if form.missing else None
+    special = re.compile(f"({_pattern(form.missing)})|({_pattern(form.overloaded)})")
     values, unreadable = np.full((len(rows), count), np.nan), np.zeros((len(rows), count), dtype=bool)
     clocks = []
     for place, heading in enumerate(layout.headings):
@@ -139,13 +138,19 @@ def _numbers(
             clocks.append(place)
             values[:, place] = clock_times(f"{path}, column {heading or place + 1!r},", words)
             continue
-        numbers = [number(word, mark, missing) for word in words]
+        numbers = [number(word, mark, special) for word in words]
         # A column without a single number holds words, such as dates or states.
         if any(one is not None and not math.isnan(one) for one in numbers):
             unreadable[:, place] = [one is None for one in numbers]
             values[:, place] = [math.nan if one is None else one for one in numbers]
     unreadable[[len(row) > count for _, row in rows]] = True
     return rows, values, unreadable, tuple(clocks)
+
+
+def _pattern(words: Sequence[str]) -> str:
+    """Return a regular expression for words in which ``*`` is for any characters, unless they hold nothing else."""
+    found = [re.escape(word) if word.strip("*") == "" else re.escape(word).replace(r"\*", ".*") for word in words]
+    return "|".join(rf"{word}(?:[.,]0*)?" if word[-1:].isdigit() else word for word in found) or "(?!)"
 
 
 def readable(path: str, table: TextTable, places: Sequence[int]) -> tuple[Flags, list[str]]:
@@ -183,7 +188,7 @@ def readable(path: str, table: TextTable, places: Sequence[int]) -> tuple[Flags,
     if forms.most_common(1)[0][1] > _ALIKE or bad.sum() > _MOST_UNREADABLE * bad.size + 1:
         raise InvalidInput(
             f"{path} has {bad.sum()} unreadable rows of {bad.size}, the first of them {first}; to leave them out could "
-            "bias the rest: correct them, or list such words under missing in the YAML file of --columns if they mean "
-            "that there is no value"
+            "bias the rest: correct them, or list such words in the YAML file of --columns, under missing if they mean "
+            "that there is no value, or under overloaded if an input was beyond its range"
         )
     return np.logical_not(bad), [f"{bad.sum()} unreadable rows left out, the first of them {first}"]

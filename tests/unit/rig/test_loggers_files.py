@@ -129,6 +129,23 @@ READ: dict[str, tuple[str | bytes, str]] = {
     "blanks in headings": (f"{TIDY}\n{rows()}".replace(",", " "), ""),
     "repeated headings": (f"{TIDY}\n{rows(RUN[:300])}{TIDY}\n{rows(RUN[300:])}", ""),
     "remarks between": (f"{TIDY}\n{rows(RUN[:300])}paused, then resumed\n{rows(RUN[300:])}", ""),
+    "results above the data": (
+        f"Results\nTime,Fn,Ft,x\n(s),(N),(N),(mm)\n1.5,50.1,25.2,3.9\n1.9,50.3,25.1,12.1\n\nData\n"
+        f"Time,Load,Traction,Disp\n(s),(N),(N),(mm)\n{rows()}",
+        "",
+    ),
+    "statistics below the data": (f"{TIDY}\n{rows()}\nmean,min,max,range\n1,2,3,4\n", ""),
+    "one of two tables": (f"{TIDY}\n{rows()}\nTime,Fn,Ft,Z\n{rows()}", "headings: 1"),
+    "power lost": (f"{TIDY}\n{rows()}" + "\0" * 512, ""),
+    "marks of no value": (f"{TIDY}\n{rows()}".replace("7\n", "ERR\n"), "missing: ['*ERR']"),
+    "marks of overload": (
+        f"{TIDY}\n{rows(RUN)}4.1,***,0,38\n4.2,-9999.00,0,38\n4.3,***,0,38\n4.4,***,0,38\n",
+        "overloaded: ['***', -9999]\ntare: {from: 0, to: 0.7}",
+    ),
+    "testing machine": (
+        '"Time ","Fn ","Ft ","Disp "\n"(s)","(N)","(N)","(mm)"\n' + re.sub(r"([^,\n]+)", r'"\1"', rows()),
+        "",
+    ),
     "Excel's first line": (f"sep=;\n{TIDY}\n{rows()}".replace(",", ";"), ""),
     "two kinds of distance": (
         f"t (s),Distance (m),Linear Position (mm),Fn (N),Ft (N)\n{rows(RUN[:, [0, 3, 3, 1, 2]] * [1, 2e-3, 1, 1, 1])}",
@@ -305,7 +322,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
     "unknown word": (
         f"{TIDY}\n{rows()}".replace("5\n", "ERR\n"),
         "",
-        r"'\d+\.\d+ERR' in the column .* list such words under missing",
+        r"'\d+\.\d+ERR' in the column .* list such words .* under missing",
         "missing: ['*ERR']",
     ),
     "thousands or decimals": (
@@ -325,6 +342,12 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
         "encoding: klingon",
         "'klingon', but .* such as utf-8",
         "encoding: utf-8",
+    ),
+    "two tables": (
+        f"t (s),Fn (N),Ft (N),x (mm)\n{rows()}\nTime (s),Fn (N),Ft (N),x (mm)\n{rows()}",
+        "",
+        "has several tables, with headings in lines 1, 603: write the line of one",
+        "headings: 603",
     ),
     "two segments": (
         (one := lvm("One", ("Fn", "Ft", "Position"), RUN)) + one.split("\t\n\t\n")[1],
