@@ -31,6 +31,8 @@ _GUESSES = {
 _SYMBOLS = "°µ²³±·×§«»“”„‘’–—…€"
 # Bytes by which the encoding is guessed, and the share of zeros that makes text of two bytes a character.
 _LOOKED_AT, _ZEROS = 100_000, 0.3
+# Characters that text has at most by accident.
+_CONTROLS, _MOST_CONTROLS = bytes({*range(32)} - {*b"\t\n\v\f\r\x1b"}), 0.005
 _WORDS = re.compile(r"[^\W\d_]+")
 
 
@@ -60,7 +62,8 @@ def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, 
     known = known or _of_two_bytes(content)
     # A logger that lost its power leaves zeros, others an end-of-file mark.
     content = content if known else content.rstrip(b"\0\x1a")
-    if known is None and (b"\0" in content or content.startswith(b"PK\3\4")):
+    odd = len(content) - len(content.translate(None, _CONTROLS))
+    if known is None and (odd > _MOST_CONTROLS * len(content) or content.startswith(b"PK\3\4")):
         raise InvalidInput(f"{path} is no text file: export the record as text (CSV)")
     try:
         return content.decode(known or "utf-8").removeprefix("\ufeff"), ""

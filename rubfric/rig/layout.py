@@ -167,16 +167,18 @@ def _chosen(
         sizes[str(title)] += end - first
     name, most = sizes.most_common(1)[0]
     mine = [str(title) == name for title in titles]
-    others = [str(top + 1) for top, own in zip(tops, mine, strict=True) if top is not None and not own]
+    others = [str(first + 1) for (first, _), own in zip(tables, mine, strict=True) if not own]
     if others and most < _MAIN * sizes.total():
-        lines = ", ".join(str(top + 1) for top in tops[:8] if top is not None)
+        known = [str(top + 1) for top in tops if top is not None]
+        lines = f"{', '.join(known[:8])}{', ...' if len(known) > 8 else ''}"
+        what = "numbers above its headings, in line" if None in tops else "several tables, with headings in lines"
         raise InvalidInput(
-            f"{path} has several tables, with headings in lines {lines}{', ...' if len(tops) > 8 else ''}: write "
-            "the line of one under headings in the YAML file of --columns"
+            f"{path} has {what} {lines}: write the line of the headings to read under headings in the YAML file of "
+            "--columns"
         )
     parts = [table for table, own in zip(tables, mine, strict=True) if own]
     notes = [f"{len(parts) - 1} repeated lines of headings left out"] if len(parts) > 1 else []
-    notes += [f"not read: other tables, with headings in lines {', '.join(others)}"] if others else []
+    notes += [f"not read: other tables of numbers, which begin in lines {', '.join(others)}"] if others else []
     return parts, tops[mine.index(True)], notes
 
 

@@ -137,6 +137,7 @@ READ: dict[str, tuple[str | bytes, str]] = {
     "statistics below the data": (f"{TIDY}\n{rows()}\nmean,min,max,range\n1,2,3,4\n", ""),
     "one of two tables": (f"{TIDY}\n{rows()}\nTime,Fn,Ft,Z\n{rows()}", "headings: 1"),
     "power lost": (f"{TIDY}\n{rows()}" + "\0" * 512, ""),
+    "zeros in a row": (f"{TIDY}\n{rows()}".replace("\n0.1", "\n\0\0\0.1", 1), ""),
     "marks of no value": (f"{TIDY}\n{rows()}".replace("7\n", "ERR\n"), "missing: ['*ERR']"),
     "marks of overload": (
         f"{TIDY}\n{rows(RUN)}4.1,***,0,38\n4.2,-9999.00,0,38\n4.3,***,0,38\n4.4,***,0,38\n",
@@ -343,10 +344,16 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
         "'klingon', but .* such as utf-8",
         "encoding: utf-8",
     ),
+    "numbers above the headings": (
+        f"{rows(RUN[:300])}{TIDY}\n{rows()}",
+        "",
+        "has numbers above its headings, in line 301: write the line",
+        "headings: 301",
+    ),
     "two tables": (
         f"t (s),Fn (N),Ft (N),x (mm)\n{rows()}\nTime (s),Fn (N),Ft (N),x (mm)\n{rows()}",
         "",
-        "has several tables, with headings in lines 1, 603: write the line of one",
+        "has several tables, with headings in lines 1, 603: write the line of the headings to read",
         "headings: 603",
     ),
     "two segments": (

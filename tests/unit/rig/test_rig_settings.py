@@ -86,7 +86,7 @@ def test_options_lie_above_the_file(tmp_path: Path) -> None:
             (f"{key}: [{BOMB}]", rf"^{key} (is|has) .{{1,90}}, but must|^columns is")
             for key in ("area", "columns", "missing", "encoding")
         ),
-        ("area: " + "[" * 5000 + "]" * 5000, "is not valid YAML: lists or mappings are nested too deeply"),
+        ("area: " + "[" * 1200 + "]" * 1200, "is not valid YAML: lists or mappings are nested too deeply"),
         ("- 1", r"is \[1\], but must hold the keys columns, units, area"),
         ("a: [", "is not valid YAML: "),
     ],
