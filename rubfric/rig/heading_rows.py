@@ -7,11 +7,13 @@ from collections.abc import Sequence
 
 from rubfric.errors import InvalidInput
 from rubfric.rig.clock import looks_like_clock
-from rubfric.rig.numerals import is_mark, looks_numeric, plain
-from rubfric.rig.units import heading_words, is_unit, unit_of
+from rubfric.rig.numerals import is_mark, looks_numeric, parted, plain
+from rubfric.rig.units import heading_words, is_unit, split_heading, unit_of
 
 # Lines of headings at most.
 MOST_HEADINGS = 6
+# Letters that a unit has at most, with brackets.
+_SHORT = 5
 _COMMENT = re.compile(r"^\s*(?:[#%]+|//)\s*")
 _WIDE_BLANKS, _BRACKETS = re.compile(r" {2,}|\t+"), re.compile(r"\S.*?[\])}](?=\s|$)")
 _LABEL = re.compile(r"(y_?)?(unit|einheit|unité|unidad|単位|单位)", re.IGNORECASE)
@@ -20,8 +22,8 @@ Row = list[str]
 
 
 def is_number(word: str) -> bool:
-    """Return whether a field holds a number or the time of a clock."""
-    return looks_numeric(word) or looks_like_clock(word)
+    """Return whether a field holds a number, also with its unit, or the time of a clock."""
+    return looks_numeric(word) or looks_like_clock(word) or parted(word) is not None
 
 
 def block(rows: Sequence[Row], first: int, below: int) -> list[int]:
@@ -61,15 +63,17 @@ def heading_row(rows: Sequence[Row], block: Sequence[int], names: Sequence[str])
 
     def rank(place: int) -> tuple[int, int, int]:
         cells = [heading_words(word) for word in rows[place]]
-        return sum(not known.isdisjoint([cell, *cell.split()]) for cell in cells), len(set(cells)), -place
+        names = sum(not known.isdisjoint([cell, *cell.split()]) for cell in cells)
+        return names + sum(bool(split_heading(word)[1]) for word in rows[place]), len(set(cells)), -place
 
     return max(worded, key=rank, default=None)
 
 
 def _holds_units(row: Row) -> bool:
-    """Return whether at least half of the words of a line are units."""
+    """Return whether the words of a line are units, at least half of them, or all of them short ones."""
     words = [word for word in map(plain, row) if not is_mark(word)]
-    return bool(words) and 2 * sum(map(is_unit, words)) >= len(words)
+    count = sum(map(is_unit, words))
+    return count > 0 and (2 * count >= len(words) or max(map(len, words)) <= _SHORT)
 
 
 def units(rows: Sequence[Row], others: Sequence[int], top: int, count: int) -> list[str]:

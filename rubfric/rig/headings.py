@@ -104,7 +104,18 @@ class _Search:
         scale, notes = self._scale(quantity, places[0])
         shown = ", ".join(str(place + 1) for place in places)
         same = (f"the columns number {shown} of {quantity} are equal: the first is taken",) if len(places) > 1 else ()
-        return Column(places[0], scale, (*same, *notes))
+        return Column(places[0], scale, (*same, *notes, *self._other_times(quantity, places)))
+
+    def _other_times(self, quantity: str, places: Sequence[int]) -> list[str]:
+        """Return a note where channels have times of their own, which are not read."""
+        name, values = heading_words(self.table.headings[places[0]]), self.table.values
+        alike = [at for at, one in enumerate(self.table.headings) if at not in places and heading_words(one) == name]
+        ways = [(at, float(np.nanmax(np.abs(values[:, at] - values[:, places[0]]), initial=0.0))) for at in alike]
+        return [
+            f"the times of column number {at + 1} differ by up to {way:.3g}; those of number {places[0] + 1} are taken"
+            for at, way in ways
+            if quantity == "time" and name and way > 0.0
+        ]
 
     def _same(self, quantity: str, places: Sequence[int]) -> bool:
         """Return whether columns hold the same values, each in its unit."""

@@ -8,6 +8,7 @@ import unicodedata
 from collections.abc import Iterable
 
 from rubfric.errors import InvalidInput
+from rubfric.rig.units import is_unit
 
 _MISSING = {"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?", "inf", "-inf", "+inf"}
 _OVERLOADED = {"ol", "ovl", "over", "overload", "ovr", "overflow", "#over", "ovf"}
@@ -15,6 +16,7 @@ _OVERLOADED = {"ol", "ovl", "over", "overload", "ovr", "overflow", "#over", "ovf
 _SIGNS = str.maketrans(dict.fromkeys("‐‑‒–—−﹣－", "-") | dict.fromkeys("’‘ʼ´`", "'"))
 _QUOTES = "\"'"
 _NUMBER = re.compile(r"[+-]?(\d[\d.,' ]*|[.,]\d+)([eEdD][+-]?\d+)?")
+_WITH_UNIT = re.compile(r"(.*\d[.,]?)\s*([^\d\s.,:'+-][^\d\s]*)")
 # Parts of a number with marks of thousands, for each decimal mark.
 _READINGS = {
     mark: re.compile(
@@ -35,6 +37,12 @@ def plain(word: str) -> str:
 def looks_numeric(word: str) -> bool:
     """Return whether a word is a number under any decimal mark."""
     return bool(_NUMBER.fullmatch(plain(word)))
+
+
+def parted(word: str) -> tuple[str, str] | None:
+    """Return number and unit of a field such as ``0.52 N``; None for any other."""
+    found = _WITH_UNIT.fullmatch(plain(word))
+    return (found[1], found[2]) if found and looks_numeric(found[1]) and is_unit(found[2]) else None
 
 
 def is_mark(word: str) -> bool:

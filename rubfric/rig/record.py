@@ -125,8 +125,10 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
     lost = int(np.count_nonzero(~whole))
     if lost > _MOST_MISSING * whole.size:
+        worst = QUANTITIES[int(np.argmax(np.isnan(values).sum(axis=1)))]
         raise InvalidInput(
-            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %"
+            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %, most often "
+            f"of {worst}: export all columns at the same times"
         )
     if lost:
         done.append(f"{lost} rows that lack a value left out")

@@ -16,8 +16,9 @@ from rubfric.rig import labview
 from rubfric.rig.clock import clock_times, looks_like_clock
 from rubfric.rig.decoding import decode
 from rubfric.rig.format import AS_FOUND, DECIMALS, Format
+from rubfric.rig.heading_rows import is_number
 from rubfric.rig.layout import Layout, find_layout
-from rubfric.rig.numerals import decimal_mark, looks_numeric, number
+from rubfric.rig.numerals import decimal_mark, looks_numeric, number, parted
 
 # Rows with an unreadable field: at most so many with words of one form, and at most this share of all rows.
 _ALIKE, _MOST_UNREADABLE = 2, 0.01
@@ -86,8 +87,9 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
     layout = labview.named(lines, find_layout(path, lines, names, form.separator, form.headings))
     top = layout.heading_line or layout.rows[0][0]
     above = tuple(lines[: top - 1])
-    rows, values, unreadable, clocks = _numbers(path, layout, form)
-    headings, units = layout.headings, layout.units
+    rows, units = _rows(layout)
+    values, unreadable, clocks = _numbers(path, layout, rows, form)
+    headings = layout.headings
     notes = [guess] if guess else []
     notes += layout.notes
     words = len(layout.rows) - len(rows)
@@ -118,16 +120,30 @@ def _begins_numeric(line: str) -> bool:
     return looks_numeric(re.split(r"[\t;,|]", line)[0])
 
 
-def _numbers(
-    path: str, layout: Layout, form: Format
-) -> tuple[list[tuple[int, list[str]]], Real, Flags, tuple[int, ...]]:
-    """Return all rows with numbers, their values, which of those are unreadable, and which columns are clocks."""
-    count = len(layout.headings)
+def _rows(layout: Layout) -> tuple[list[tuple[int, list[str]]], tuple[str, ...]]:
+    """Return all rows with numbers, filled up with empty fields, and the units of the columns.
+
+    A unit that all numbers of a column have behind them becomes that of the column.
+    """
+    count, units = len(layout.headings), list(layout.units)
     rows = [
-        (line, [*row, *[""] * (count - len(row))])
-        for line, row in layout.rows
-        if any(looks_numeric(word) or looks_like_clock(word) for word in row)
+        (line, [*row, *[""] * (count - len(row))]) for line, row in layout.rows if any(is_number(word) for word in row)
     ]
+    for place in range(count):
+        pairs = [parted(row[place]) for _, row in rows] if parted(rows[0][1][place]) else []
+        found = {pair[1] for pair in pairs if pair}
+        if len(found) == 1:
+            units[place] = found.pop()
+            for (_, row), pair in zip(rows, pairs, strict=True):
+                row[place] = pair[0] if pair else row[place]
+    return rows, tuple(units)
+
+
+def _numbers(
+    path: str, layout: Layout, rows: Sequence[tuple[int, list[str]]], form: Format
+) -> tuple[Real, Flags, tuple[int, ...]]:
+    """Return the values of all rows, which of those are unreadable, and which columns are clocks."""
+    count = len(layout.headings)
     mark = DECIMALS[form.decimal] if form.decimal else decimal_mark(path, (word for _, row in rows for word in row))
     special = re.compile(f"({_pattern(form.missing)})|({_pattern(form.overloaded)})")
     values, unreadable = np.full((len(rows), count), np.nan), np.zeros((len(rows), count), dtype=bool)
@@ -144,7 +160,7 @@ def _numbers(
             unreadable[:, place] = [one is None for one in numbers]
             values[:, place] = [math.nan if one is None else one for one in numbers]
     unreadable[[len(row) > count for _, row in rows]] = True
-    return rows, values, unreadable, tuple(clocks)
+    return values, unreadable, tuple(clocks)
 
 
 def _pattern(words: Sequence[str]) -> str:

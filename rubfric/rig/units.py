@@ -14,7 +14,7 @@ _POUND, _KILOPOND = 4.4482216152605, 9.80665
 _TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
 _FORCE = {"N": 1.0, "kN": 1e3, "daN": 10.0, "cN": 1e-2, "mN": 1e-3, "uN": 1e-6}
 _FORCE |= {"kgf": _KILOPOND, "gf": 1e-3 * _KILOPOND, "lbf": _POUND, "ozf": _POUND / 16.0, "dyn": 1e-5}
-_LENGTH = {"mm": 1.0, "m": 1e3, "dm": 100.0, "cm": 10.0, "um": 1e-3, "nm": 1e-6, "in": 25.4, "ft": 304.8, "mil": 0.0254}
+_LENGTH = {"mm": 1.0, "m": 1e3, "dm": 100.0, "cm": 10.0, "um": 1e-3, "nm": 1e-6, "in": 25.4, "mil": 0.0254}
 _KNOWN = {"time": _TIME, "normal": _FORCE, "traction": _FORCE, "displacement": _LENGTH}
 EXAMPLES = {"time": "s", "normal": "N", "traction": "N", "displacement": "mm"}
 _PREFIXES = {"milli": "m", "micro": "u", "nano": "n", "centi": "c", "deci": "d", "deca": "da", "kilo": "k", "": ""}
@@ -41,7 +41,7 @@ _SPELLINGS |= dict.fromkeys(("g", "gr", "gram", "grams", "gram-force", "gramforc
 _SPELLINGS |= dict.fromkeys(("lb", "lbs", "pound", "pounds", "pound-force", "pounds-force", "lb-f"), "lbf")
 _SPELLINGS |= {"oz": "ozf", "dyne": "dyn", "dynes": "dyn", "н": "N", "кн": "kN", "мс": "ms", "мм": "mm", "м": "m"}
 _SPELLINGS |= {"micron": "um", "microns": "um", "mkm": "um", "мкм": "um", "inch": "in", "inches": "in", '"': "in"}
-_SPELLINGS |= {"thou": "mil", "mils": "mil", "foot": "ft", "feet": "ft"}
+_SPELLINGS |= {"thou": "mil", "mils": "mil"}
 # Capitals change the meaning of these alone: MN is no mN.
 _STRICT = ("mn",)
 # Units of mass that are read as the weight of that mass.

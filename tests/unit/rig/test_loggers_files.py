@@ -72,10 +72,15 @@ READ: dict[str, tuple[str | bytes, str]] = {
         "columns: {normal: CH1, traction: CH2, displacement: CH3}",
     ),
     "settings as numbers": (f"Gain,1,2,3\nLimit,10,20,30\nRate,5,5,5\nFilter,1,1,1\n{TIDY}\n{rows()}", ""),
+    "title of as many words": (
+        f"Rubber,Road,Rig,Name\nA (s),B (N),C (N),D (mm)\n{rows()}",
+        f"{NUMBERED.splitlines()[0]}",
+    ),
     "line of the headings": (f"p,q,r,s\nA,B,C,D\nu,v,w,z\n{rows()}", f"headings: 2\n{NUMBERED}"),
     "headings of numbers": (f"1,2,3,4\n{rows()}", f"headings: 1\n{NUMBERED}"),
     "no headings": (rows(), NUMBERED),
     "units below": (f"t,Fn,Ft,x\ns,N,N,mm\n{rows()}", ""),
+    "short names": (f"t,n,ft,x\ns,N,N,mm\n{rows()}", ""),
     "units, then types": (f"Time,Fn,Ft,Pos\n[s],[N],[N],[mm]\nREAL,REAL,REAL,REAL\n{rows()}", ""),
     "types, then units": (f"T,Fn,Ft,Pos,RN\n,Avg,Avg,Smp,\nsec,N,N,mm,-\n{rows(end=',5')}", ""),
     "data logger": (f'"TOA5","rig","CR1","12"\n{TIDY}\n"TS","N","N","mm"\n"","Avg","Avg","Smp"\n{rows()}', UNITS),
@@ -87,6 +92,10 @@ READ: dict[str, tuple[str | bytes, str]] = {
     "unfilled heading": (f"{TIDY},remark\n{rows()}", ""),
     "tab after rows": (f"{TIDY}\n{rows(end=',')}".replace(",", "\t"), ""),
     "time per channel": (f"Time (s),Fn (N),Time (s),Ft (N),x (mm)\n{rows(RUN[:, [0, 1, 0, 2, 3]])}", ""),
+    "time of one channel": (
+        f"Time (s),Fn (N),Time (s),Ft (N),x (mm)\n{rows(RUN[:, [0, 1, 0, 2, 3]] + [0, 0, 0.1, 0, 0])}",
+        "columns: {time: 1}",
+    ),
     "time in two units": (
         f"Time (s),Time (min),Fn (N),Ft (N),x (mm)\n{rows(RUN[:, [0, 0, 1, 2, 3]] / [1, 60, 1, 1, 1], form='%.9f')}",
         "",
@@ -122,6 +131,15 @@ READ: dict[str, tuple[str | bytes, str]] = {
         "",
     ),
     "gram-force": (f"T,Fz,Fx,X\nsec,g,gf,mm\n{rows(RUN / [1, 9.80665e-3, 9.80665e-3, 1])}", ""),
+    "units in the fields": (
+        "t,Fn,Ft,x\n" + re.sub(r"(.*),(.*),(.*),(.*)\n", r"\1 s,\2 N,\3N,\4 mm\n", rows()),
+        "",
+    ),
+    "units in the fields, decimal commas": (
+        "t;Fn;Ft;x (mm)\n"
+        + re.sub(r"(.*);(.*);(.*);(.*)\n", r"\1 ms;\2 N;\3 N;\4\n", rows(RUN * [1e3, 1, 1, 1], ";")).replace(".", ","),
+        "",
+    ),
     "given unit": (f"T,Fz,Fx,X\n{rows(RUN / [1e-3, 1, 1, 1])}", UNITS.replace("time: s", "time: milliseconds")),
     "date and clock": (f"Time,Fn (N),Ft (N),x (mm)\n{rows(form='%09.6f')}".replace("\n0", "\n22.11.2026 13:20:0"), ""),
     "comment mark": (f"# run 5\n# {TIDY}\n{rows()}", ""),
@@ -227,6 +245,12 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
         "",
         "'V', but must be one of N, kN, .*kgf, gf",
         "units: {normal: N}",
+    ),
+    "units of voltage below": (
+        f"Time,Fn,Ft,x\ns,V,V,V\n{rows()}",
+        "",
+        "which holds normal, is 'V', but must be one of N, ",
+        "units: {normal: N, traction: N, displacement: mm}",
     ),
     "unit of turns": (
         f"time (s),Fn (N),Ft (N),x\ns,N,N,rev\n{rows()}",
@@ -350,6 +374,12 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
         "has numbers above its headings, in line 301: write the line",
         "headings: 301",
     ),
+    "values at other times": (
+        f"{TIDY}\n" + re.sub(r"(\n.*\n.*\n.*,)[^,]*(?=\n)", r"\1", rows()),
+        "",
+        "lacks a value in .* most often of displacement: export all columns at the same times",
+        f"{TIDY}\n{rows()}".encode(),
+    ),
     "two tables": (
         f"t (s),Fn (N),Ft (N),x (mm)\n{rows()}\nTime (s),Fn (N),Ft (N),x (mm)\n{rows()}",
         "",
@@ -389,6 +419,7 @@ def test_what_was_guessed_or_chosen_is_said(reduce: Reducer) -> None:
         ("Shift-JIS", r"read in the encoding cp932 \(Shift-JIS\), which was guessed; encoding in the YAML"),
         ("time per channel", r"the columns number 1, 3 of time are equal: the first is taken"),
         ("kgf and inches", r"normal in kg is read as the weight of that mass, 9\.80665 N"),
+        ("time of one channel", r"the times of column number 3 differ by up to 0\.1; those of number 1 are taken"),
         ("repeated headings", r"1 repeated lines of headings left out"),
     ):
         assert any(re.match(says, note) for note in reduce(*READ[kind]).notes), kind
