@@ -15,6 +15,8 @@ _SPEED_LIMIT = 0.3
 _FOLD_LIMIT = 0.1
 # Largest difference of the three friction coefficients, unless a lower accuracy was asked for.
 _CLOSURE_LIMIT = 0.01
+# Cells higher than wide by more than this at the road make the error so many times larger.
+_SQUARE = 1.01
 
 
 def warnings(solution: SteadySolution, closure: float) -> list[str]:
@@ -69,6 +71,8 @@ def _inaccurate(solution: SteadySolution) -> list[str]:
 
 def _remedy(solution: SteadySolution) -> str:
     """Return what would make a scene more accurate."""
+    if solution.meshes[-1].first_row > _SQUARE:
+        return "lower numerics.first_row"
     if len(solution.meshes) > solution.scene.numerics.refinements + 1:
         return "raise numerics.refinements"
     if solution.decision.kinematics == "finite":

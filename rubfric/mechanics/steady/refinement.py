@@ -123,5 +123,6 @@ def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, mesh
     solution = solver.solve(resolution)
     touching = int(np.count_nonzero(solution.contact.touching))
     block = solution.block
-    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction))
+    first_row = float(block.row_positions[1] / block.column_width)
+    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction, first_row))
     return solution
