@@ -34,6 +34,8 @@ _COLUMNS = {
     "contact_nodes": "contact_nodes",
     "warnings": "warnings",
 }
+# What a text may begin with that a spreadsheet would take for a formula, unless an apostrophe comes before it.
+_FORMULA, _AS_TEXT = r"^(?=[=+\-@\t\r])(?![+-]?[\d.]+(?:[eE][+-]?\d+)?$)", r"^'(?=[=+\-@\t\r])"
 _WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes", "warnings")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
@@ -78,14 +80,23 @@ def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool 
     """
     check_signature(path, signed)
     try:
-        return pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
+        table = pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
     except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
         reason = " ".join(str(error).split())
         raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; {AGAIN}") from error
+    return _replaced(table, _AS_TEXT, "")
+
+
+def _replaced(table: pd.DataFrame, pattern: str, by: str) -> pd.DataFrame:
+    """Return a table with a pattern replaced in all its texts."""
+    texts = table.select_dtypes(include=["object", "string"]).columns
+    return table.assign(**{name: table[name].replace(pattern, by, regex=True) for name in texts})
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
     """Write a table as CSV with six significant digits, whole or not at all, and its checksum beside it.
+
+    A text that a spreadsheet would take for a formula has an apostrophe before it, which ``read_table`` takes away.
 
     Parameters
     ----------
@@ -99,5 +110,5 @@ def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
         Where the disk is full or the place is not writable.
     """
     with whole(path) as part:
-        table.to_csv(part, index=False, float_format="%.6g")
+        _replaced(table, _FORMULA, "'").to_csv(part, index=False, float_format="%.6g")
     sign(path)

@@ -149,3 +149,23 @@ def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> Non
         source.write_bytes(content)
     with pytest.raises(BrokenResult, match=r"broken\.csv (is no|cannot be) read.*: .*; delete it and run again$"):
         read_table(source, [], signed=False)
+
+
+def test_text_is_no_formula(tmp_path: Path) -> None:
+    texts = ["=1+2;x.csv", "+a", "-b", "@c", "-1.5", "+2e-3", "run", "'quoted", "1=2", ""]
+    table = pd.DataFrame({"run": texts, "number": -1.0, "mixed": [*texts[:-1], -3.5]})
+    write_table(table, tmp_path / "points.csv")
+    lines = (tmp_path / "points.csv").read_text().splitlines()[1:]
+    assert not [cell for line in lines for cell in line.split(",") if cell[:1] in set("=+-@") and not is_number(cell)]
+    assert lines[0] == "'=1+2;x.csv,-1,'=1+2;x.csv"
+    read = read_table(tmp_path / "points.csv", ["run"])
+    assert read["run"].fillna("").tolist() == texts
+    assert read["number"].tolist() == [-1.0] * len(texts)
+
+
+def is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
