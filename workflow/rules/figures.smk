@@ -74,6 +74,7 @@ rule campaign_figure:
         figure="|".join(CAMPAIGN_FIGURES),
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
+        digests=[COLLECTED],
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -84,6 +85,7 @@ rule campaign_figure:
             results=input.results,
             choice=params.choice,
             outputs=list(output),
+            digests=params.digests,
         )
 
 
@@ -141,6 +143,7 @@ rule total_figure:
         figure="|".join(TOTAL_FIGURES),
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
+        collected=COLLECTED,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -150,6 +153,7 @@ rule total_figure:
             figure=wildcards.figure,
             table=input.table,
             campaign=input.campaign,
+            collected=params.collected,
             choice=params.choice,
             outputs=list(output),
         )

@@ -31,6 +31,7 @@ rule scale_table:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
     params:
         title=TITLE,
+        collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -40,6 +41,7 @@ rule scale_table:
             output=output.table,
             page=output.page,
             campaign=input.campaign,
+            collected=params.collected,
             scale=int(wildcards.scale),
             title=params.title,
         )
@@ -78,6 +80,7 @@ rule total_table:
     params:
         road=CAMPAIGN.whole_parameters(),
         title=TITLE,
+        collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -88,6 +91,7 @@ rule total_table:
             page=output.page,
             campaign=input.campaign,
             whole=list(input.whole),
+            collected=params.collected,
             road=params.road,
             title=params.title,
         )
