@@ -101,7 +101,7 @@ def _guessed(path: str, content: bytes, words: Sequence[str]) -> tuple[str, str]
             f"{path} is neither UTF-8 nor in any encoding tried ({', '.join(_GUESSES)}): export the record as UTF-8, "
             "or name its encoding under encoding in the YAML file of --columns"
         )
-    wanted = [word for word in words if not word.isascii()]
+    wanted = [word.casefold() for word in words if not word.isascii()]
     best = min(texts, key=lambda name: _oddity(name, texts[name][:_LOOKED_AT], wanted))
     note = (
         f"read in the encoding {best} ({_GUESSES[best][0]}), which was guessed; encoding in the YAML file of --columns "
@@ -122,7 +122,7 @@ def _oddity(name: str, text: str, wanted: Sequence[str]) -> tuple[int, float]:
         odd += len(strange) if wrong or _CAMEL.search(word) else sum(not _usual(name, one) for one in strange)
     others = [one for one in text if not one.isascii() and not one.isalnum() and one not in _SYMBOLS]
     odd += sum(not _usual(name, one) for one in others)
-    return -sum(word in text for word in wanted), odd / max(letters + len(others), 1)
+    return -sum(word in text.casefold() for word in wanted), odd / max(letters + len(others), 1)
 
 
 def _usual(name: str, letter: str) -> bool:
