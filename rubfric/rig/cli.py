@@ -156,7 +156,7 @@ def _simulate(options: argparse.Namespace) -> int:
     if not needed.is_file():
         raise FileNotFoundError(f"there is no {needed}: run snakemake first, or give --campaign FILE")
     if options.scale is None:
-        friction = FrictionMap.from_totals(read_table(totals, WORDS))
+        friction = FrictionMap.from_totals(read_table(totals, WORDS, signed=False))
     else:
         friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
     print(simulate(friction, virtual, options.pressure, options.weight, options.speed, options.output))
