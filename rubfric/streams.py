@@ -66,10 +66,3 @@ def patient_output() -> Iterator[None]:
     finally:
         sys.stdout = before
         patient.flush()
-
-
-def occupy_standard_descriptors() -> None:
-    """Open descriptors 0, 1 and 2 where they are closed: what is opened next would get one of them for its own."""
-    while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
-        os.set_inheritable(descriptor, True)
-    os.close(descriptor)

@@ -44,6 +44,11 @@ from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
 
 
+def _span(values: tuple[float, ...]) -> str:
+    """Return the first and the last of ascending numbers, or the only one."""
+    return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
+
+
 @dataclass(frozen=True)
 class Campaign:
     """All that a config asks for.
@@ -256,10 +261,9 @@ class Campaign:
         rubber, numerics = self.material, self.numerics
         return (
             f"Rubber {rubber.name} ({rubber.moduli.replace('_', '-')} modulus, {rubber.bulk} bulk) on road "
-            f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} scales, "
-            f"{checks.written(self.velocities[0])} to {checks.written(self.velocities[-1])} mm/s, "
-            f"{checks.written(self.pressures[0])} to {checks.written(self.pressures[-1])} MPa; friction to "
-            f"{100.0 * numerics.accuracy:g} %."
+            f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} "
+            f"scale{'s' if len(self.road) > 1 else ''}, {_span(self.velocities)} mm/s, {_span(self.pressures)} MPa; "
+            f"friction to {100.0 * numerics.accuracy:g} %."
         )
 
     def marches(self) -> dict[str, Scene]:

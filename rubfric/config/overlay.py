@@ -44,6 +44,8 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         held = None if tree is None or twice else loader.construct_document(tree)
     except UnicodeDecodeError as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {_no_text(error)}") from error
+    except RecursionError as error:
+        raise InvalidInput(f"{os.fspath(path)} is not valid YAML: lists or mappings are nested too deeply") from error
     except (*_NO_YAML, IsADirectoryError) as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if twice:

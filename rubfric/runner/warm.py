@@ -22,7 +22,6 @@ from rubfric.rubber.material import Material
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
-from rubfric.streams import occupy_standard_descriptors
 
 
 def _use_everything() -> None:
@@ -42,7 +41,6 @@ def _use_everything() -> None:
         drawn.savefig(io.BytesIO(), format=kind)
 
 
-occupy_standard_descriptors()
 try:
     _use_everything()
 except Exception as error:  # what is wrong here fails a job too, with a better message

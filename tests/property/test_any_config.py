@@ -227,7 +227,7 @@ def in_use(config: Tree, catalogue: Way) -> list[str]:
     if catalogue == READINGS:
         return list(config["claims"]["compare"])
     if catalogue == ("presets",):
-        return [config["numerics"]["preset"], config["claims"]["preset"]]
+        return [config["numerics"]["preset"], config["claims"]["preset"], config["multiscale_preset"]]
     return [config[str(catalogue[0])[:-1]]]
 
 

@@ -83,6 +83,17 @@ if JUDGE:
             f"{RESULTS}/logs/claims.log",
         localrule: True
         params:
+            digests={
+                "campaign": COLLECTED,
+                "profiles": [
+                    scene.digest for scene in CAMPAIGN.field_scenes().values()
+                ],
+                "marches": [scene.digest for scene in MARCHES.values()],
+                "readings": {
+                    name: [scene.digest for scene in reading.scenes().values()]
+                    for name, reading in READINGS.items()
+                },
+            },
             criteria=criteria(CAMPAIGN),
             roads={
                 name: reading.whole_parameters() for name, reading in READINGS.items()

@@ -75,6 +75,7 @@ rule campaign_figure:
     localrule: True
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
+        digests=[COLLECTED],
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -85,6 +86,7 @@ rule campaign_figure:
             results=input.results,
             choice=params.choice,
             outputs=list(output),
+            digests=params.digests,
         )
 
 
@@ -139,6 +141,7 @@ rule total_figure:
     localrule: True
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
+        collected=COLLECTED,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -148,6 +151,7 @@ rule total_figure:
             figure=wildcards.figure,
             table=input.table,
             campaign=input.campaign,
+            collected=params.collected,
             choice=params.choice,
             outputs=list(output),
         )

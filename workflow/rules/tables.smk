@@ -32,6 +32,7 @@ rule scale_table:
     localrule: True
     params:
         title=TITLE,
+        collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -41,6 +42,7 @@ rule scale_table:
             output=output.table,
             page=output.page,
             campaign=input.campaign,
+            collected=params.collected,
             scale=int(wildcards.scale),
             title=params.title,
         )
@@ -80,6 +82,7 @@ rule total_table:
     params:
         road=CAMPAIGN.whole_parameters(),
         title=TITLE,
+        collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -90,6 +93,7 @@ rule total_table:
             page=output.page,
             campaign=input.campaign,
             whole=list(input.whole),
+            collected=params.collected,
             road=params.road,
             title=params.title,
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shlex
 import signal
 import subprocess
 import sys
@@ -138,8 +137,9 @@ def test_exception_fails_the_job_with_its_sentence_and_log(place: Workplace) -> 
 
 
 def test_early_exit_fails_the_job(place: Workplace) -> None:
-    with pytest.raises(JobFailed, match=r"one.log\)$"):
+    with pytest.raises(JobFailed, match=r"the job's process ended with exit status 1 before .*one.log\)$"):
         place.run("one", act="exit")
+    assert place.log("one").read_text().endswith("gone early\n")
     assert place.run("two", number=2).read_text().startswith("2 ")
 
 
@@ -241,16 +241,20 @@ def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -
 
 
 @pytest.mark.thorough
-def test_jobs_run_where_the_output_of_the_workflow_is_closed(place: Workplace) -> None:
-    output, master_script = place.folder / "one.txt", place.folder / "master.py"
-    master_script.write_text(
+@pytest.mark.parametrize("closed", ["<&- >&- 2>&-", ">&-", "> /dev/full 2> /dev/full"])
+def test_jobs_need_no_standard_files(place: Workplace, closed: str) -> None:
+    master = place.folder / "master.py"
+    master.write_text(
         "from rubfric.runner import jobs\n"
-        f"jobs.run({str(place.script)!r}, {str(place.log('one'))!r}, output={str(output)!r}, number=7)\n"
+        f"for name in ('one', 'two'):\n"
+        f"    jobs.run({str(place.script)!r}, {str(place.folder)!r} + f'/logs/{{name}}.log', output=name + '.txt')\n"
     )
-    command = f"exec {shlex.quote(sys.executable)} master.py <&- >&- 2>&-"
-    assert subprocess.run(["sh", "-c", command], cwd=place.folder, check=False).returncode == 0
-    assert output.read_text().startswith("7 ")
-    assert place.log("one").read_text() == "number 7\non stderr\n"
+    command = f"exec {sys.executable} {master} {closed}"
+    done = subprocess.run(["sh", "-c", command], cwd=place.folder, check=False, timeout=60)
+    assert done.returncode == 0
+    for name in ("one", "two"):
+        assert place.log(name).read_text() == "number 0\non stderr\n"
+        assert (place.folder / f"{name}.txt").exists()
 
 
 def is_running(process: int) -> bool:
