@@ -79,23 +79,19 @@ def run(tmp_path: Path, snakemake: Snakemake) -> Iterator[Run]:
 
 
 def test_it_opens_with_what_is_understood_and_how_long_it_takes(tmp_path: Path, snakemake: Snakemake) -> None:
-    removed = ["removed: a table"]
-    run = Run(
-        tmp_path,
-        snakemake,
-        **{"opening": lambda: ["a rubber"], "expected": lambda rule: 60.0, "at_once": lambda: 2},
-        leftovers=lambda: removed,
-    )
-    snakemake.send("RUN_INFO", "Job stats", stats={"total_table": 4})
-    assert run.said == ["  a rubber", "  To do: 4 tables; about 2 min"]
-    run.log.begin()
-    assert run.written[1:] == run.said
-    run.log.succeed()  # without a table nothing is removed
-    assert not any("removed" in line for line in run.said)
-    snakemake.start(0, rule="total_table")
-    snakemake.finish(0)
-    run.log.succeed()
-    assert "  removed: a table" in run.said
+    options = {"opening": lambda: ["a rubber"], "expected": lambda rule: 60.0, "at_once": lambda: 2}
+    for made in (False, True):  # without a table nothing is removed
+        run = Run(tmp_path / str(made), snakemake, **options, leftovers=lambda: ["removed: a table"])
+        snakemake.send("RUN_INFO", "Job stats", stats={"total_table": 4})
+        assert run.said == ["  a rubber", "  To do: 4 tables; about 2 min"]
+        run.log.begin()
+        assert run.written[1:] == run.said
+        if made:
+            snakemake.start(0, rule="total_table")
+            snakemake.finish(0)
+        run.log.succeed()
+        assert ("  removed: a table" in run.said) == made
+        snakemake.logger.removeHandler(run.log)
 
 
 def test_plan_stages_and_end_are_reported(run: Run, snakemake: Snakemake) -> None:
