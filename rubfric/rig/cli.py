@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from rubfric.config import campaign as campaigns
-from rubfric.config.models import TRACTIONS, VirtualRig
+from rubfric.config.plausibility import check_area
+from rubfric.config.rig import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 
 _REDUCE = """\
@@ -20,6 +21,7 @@ run.csv holds time, normal force, traction and displacement, with units in the h
   columns: {time: Zeit, normal: Fz, traction: Fx, displacement: Weg}   # where they are not recognised
   units: {time: s, normal: kN, traction: N, displacement: mm}          # where the headings do not say
   area: 100                  # nominal area of the rubber, mm²
+  normal: 50                 # N, where the load is a known weight and no column
   traction: rope             # sensor in the rope instead of at the rubber; then also
   sled_mass: 5               # kg
   bearing: {force: 0.5, coefficient: 0.005}   # N, and per normal force; or {file: unloaded.csv}
@@ -81,6 +83,9 @@ def _add_reduce(own: Any) -> None:
         choices=TRACTIONS,
         help="where the sensor of traction sits (instead of the YAML's; default: rubber)",
     )
+    reduce.add_argument(
+        "--normal", type=float, metavar="F", help="known constant normal force, N (instead of the YAML's)"
+    )
     reduce.add_argument("--sled-mass", type=float, metavar="M", help="mass of the sled, kg (instead of the YAML's)")
     reduce.add_argument("--output", "-o", type=Path, metavar="FILE", help="write the points to this CSV file")
     reduce.add_argument("--rejected", type=Path, metavar="FILE", help="write the rejected windows to this CSV file")
@@ -127,6 +132,7 @@ def _reduce(options: argparse.Namespace) -> int:
     from rubfric.rig.summary import summary
 
     above = {"area": options.area, "traction": options.traction, "sled_mass": options.sled_mass}
+    above["normal"] = options.normal
     runs = reduce_files(options.files, read_settings(options.columns, **above))
     print(summary(runs))
     for path, table in ((options.output, point_table), (options.rejected, rejected_table)):
@@ -138,7 +144,7 @@ def _reduce(options: argparse.Namespace) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*options.configs(options.config or []))
-    virtual = _virtual(campaign.rig.virtual, options)
+    virtual = _virtual((campaign.rig or RigChoice()).virtual, options)
     from rubfric.results.campaign import read
     from rubfric.results.friction_map import FrictionMap
     from rubfric.results.scales import WORDS
@@ -151,7 +157,7 @@ def _simulate(options: argparse.Namespace) -> int:
     if not needed.is_file():
         raise FileNotFoundError(f"there is no {needed}: run snakemake first, or give --campaign FILE")
     if options.scale is None:
-        friction = FrictionMap.from_totals(read_table(totals, WORDS))
+        friction = FrictionMap.from_totals(read_table(totals, WORDS, signed=False))
     else:
         friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
     print(simulate(friction, virtual, options.pressure, options.weight, options.speed, options.output))
@@ -163,4 +169,6 @@ def _virtual(virtual: VirtualRig, options: argparse.Namespace) -> VirtualRig:
     given = {name: value for name in VirtualRig.model_fields if (value := getattr(options, name)) is not None}
     if options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
-    return VirtualRig.read("rig.virtual", dict(virtual) | given)
+    rig = VirtualRig.read("rig.virtual", dict(virtual) | given)
+    check_area("rig.virtual.area", rig.area)
+    return rig

@@ -1,4 +1,5 @@
 # Tables of the campaign.
+TITLE = f"Friction of rubber {RUBBER} on road {ROAD}"
 TABLES = [
     *(f"{RESULTS}/tables/friction_scale_{scale}.csv" for scale in CAMPAIGN.scales),
     f"{RESULTS}/tables/friction_total.csv",
@@ -9,7 +10,7 @@ rule scale_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
         page_files("table"),
-        script="workflow/scripts/tabulate_scale.py",
+        script=script_copy("tabulate_scale.py"),
         campaign=rules.campaign.output[0],
     output:
         table=report(
@@ -28,6 +29,10 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    localrule: True
+    params:
+        title=TITLE,
+        collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -37,7 +42,9 @@ rule scale_table:
             output=output.table,
             page=output.page,
             campaign=input.campaign,
+            collected=params.collected,
             scale=int(wildcards.scale),
+            title=params.title,
         )
 
 
@@ -47,7 +54,7 @@ rule total_table:
             "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
         ),
         page_files("table"),
-        script="workflow/scripts/tabulate_total.py",
+        script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
     output:
@@ -71,8 +78,11 @@ rule total_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
+    localrule: True
     params:
         road=CAMPAIGN.whole_parameters(),
+        title=TITLE,
+        collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -83,7 +93,9 @@ rule total_table:
             page=output.page,
             campaign=input.campaign,
             whole=list(input.whole),
+            collected=params.collected,
             road=params.road,
+            title=params.title,
         )
 
 

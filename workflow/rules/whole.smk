@@ -9,17 +9,28 @@ WHOLE_MARK = (
 )
 # The collection of them, and its mark; none where the total does without.
 WHOLE_COLLECTION = [f"{RESULTS}/whole.nc", WHOLE_MARK] if WHOLE else []
+# Paths of the results of every road, and their digests; what the collection of these scenes is known by.
+WHOLE_DIGESTS = {
+    draw: {
+        whole_file(name): scene.digest
+        for name, scene in WHOLE.items()
+        if name.startswith(f"{draw}all_")
+    }
+    for draw in CAMPAIGN.whole_roads
+}
+WHOLE_COLLECTED = whole_fingerprint(WHOLE_DIGESTS)
 
 
 rule whole_scene:
     input:
         package_files("rubfric.simulation", *CHOOSING),
-        script="workflow/scripts/simulate_whole.py",
+        script=script_copy("simulate_whole.py"),
     output:
         whole_file("{whole}"),
     log:
         f"{RESULTS}/logs/whole/{RUBBER}/{ROAD}/{{whole}}.log",
     priority: 5
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
         road=CAMPAIGN.whole_parameters() if CHOOSING else {},
@@ -39,7 +50,7 @@ rule whole_scene:
 rule whole_collection:
     input:
         package_files("rubfric.results.campaign", "rubfric.results.draws"),
-        script="workflow/scripts/collect_whole.py",
+        script=script_copy("collect_whole.py"),
         scenes=whole_files,
     output:
         report(
@@ -51,15 +62,9 @@ rule whole_collection:
         mark=WHOLE_MARK,
     log:
         f"{RESULTS}/logs/whole.log",
+    localrule: True
     params:
-        scenes={
-            draw: {
-                whole_file(name): scene.digest
-                for name, scene in WHOLE.items()
-                if name.startswith(f"{draw}all_")
-            }
-            for draw in CAMPAIGN.whole_roads
-        },
+        scenes=WHOLE_DIGESTS,
     message:
         "Collecting the whole road"
     run:
