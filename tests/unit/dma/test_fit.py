@@ -58,6 +58,15 @@ def test_table_1_comes_back_from_its_own_measurements(rng: np.random.Generator) 
     assert 2.98 * shear.imag == pytest.approx(loss, rel=0.03)
 
 
+def test_the_example_gives_what_its_page_says() -> None:
+    folder = Path(__file__).resolve().parents[3] / "examples/own_rubber"
+    found = fit(read(str(folder / "dma.csv")))
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    assert f"| C1 | {found.c1:.3g} |" in page
+    assert f"| C2 (K) | {found.c2:.4g} |" in page
+    assert f"| branches | {len(found.times)} |" in page
+
+
 def covered(seeds: range, samples: int, arrhenius: bool = False) -> np.ndarray:
     """Return for each seed whether the law, both its constants and the master curve were found."""
     rows = []
