@@ -106,7 +106,10 @@ def _fit_isotherms(data: Measurements, options: Options) -> Fit:
         warnings += [words for words in said.values() if words]
         warnings += ["free shifts were taken, which cannot be extrapolated beyond the measured temperatures"]
     joint = without_idle(_even(data, joint, options))
-    warnings += check_gaps(data, joint.shifts)
+    connected, words = check_gaps(data, joint.shifts)
+    if len(connected.storage) < len(data.storage):
+        return _fit_isotherms(connected, options)
+    warnings += words
     return assembled(data, options, reference, joint, deviations, warnings)
 
 

@@ -126,6 +126,24 @@ def test_vertical_shifts_are_found(rng: np.random.Generator) -> None:
     assert shift.modulus_factor(-25.0) == pytest.approx(scale[2], rel=0.03)
 
 
+def test_errors_of_the_temperature_are_no_failure_of_the_law(rng: np.random.Generator) -> None:
+    # 0.5 K, which take the residuals far beyond the noise; two frequencies; and a cold isotherm out of reach.
+    moduli = 10.0 ** (np.linspace(3.0, 0.0, 60) - 0.5 * np.sin(np.linspace(0.0, 5.0, 60)))
+    truth = Truth(2.0, moduli, np.geomspace(1e-10, 1e2, 60))
+    temperatures, hertz = np.arange(-30.0, 60.0, 6.0), np.geomspace(0.1, 100.0, 8)
+    temperature, frequency = np.repeat(temperatures, 8), np.tile(2.0 * np.pi * hertz, 15)
+    storage, loss = truth.at(temperature + np.repeat(rng.normal(0.0, 0.5, 15), 8), frequency)
+    found = fit(ordered("dma.csv", "E", frequency, temperature, storage, loss))
+    assert found.law == "wlf"
+    assert found.c1 == pytest.approx(8.86, rel=0.05)
+    assert max(found.rms) > 0.01
+    two = fit(measurements(truth, np.arange(-40.0, 60.0, 5.0), np.array([1.0, 10.0]), 0.01, rng), Options(law="wlf"))
+    assert "isotherms at -40 degC left out" in two.data.notes[-1]
+    assert two.c1 == pytest.approx(8.86, rel=0.05)
+    low, high = bootstrap(replace(found, options=replace(found.options, samples=20))).of("c1")
+    assert low < 8.86 < high
+
+
 def test_bad_points_are_left_out_and_named(rng: np.random.Generator) -> None:
     truth = table_1()
     data = measurements(truth, TEMPERATURES, HERTZ, 0.01, rng)
