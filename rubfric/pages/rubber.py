@@ -87,6 +87,8 @@ def results(fit: Fit, bands: Bands) -> Iterator[tuple[str, str, str]]:
             yield label, f"{value:.4g}{unit}", _band(bands, name, unit)
     yield f"Static modulus {kind}", f"{fit.static:.4g} MPa", _band(bands, "static", " MPa")
     yield f"Instantaneous modulus {kind}", f"{fit.static + fit.moduli.sum():.4g} MPa", ""
+    if bands.temperature_error > 0.0:
+        yield "Error of the temperatures, from the scatter of shifts", f"{bands.temperature_error:.2g} K", ""
     low, high = fit.window
     yield "Branches", f"{len(fit.times)}, {len(fit.times) / math.log10(high / low):.2g} a decade", ""
 
