@@ -149,7 +149,7 @@ def test_whole_road_is_left_out_where_it_would_take_minutes(kinematics: str, pre
 
 
 def test_road_of_few_waves_is_solved_at_once_also_where_much_of_it_is_in_contact() -> None:
-    few = WaveRoad((0.015, 0.003), (35.0, 210.0))
+    few = WaveRoad((0.015, 0.003), (35.0, 210.0), (0.0, 0.0))
     assert road("auto", accuracy=0.01, kinematics="finite", roads=(few,)).cheapest(1.0, 2.0) == "direct"
 
 
