@@ -247,4 +247,10 @@ def pivot(
             touching[np.flatnonzero(violated)[-1]] ^= True
         if not touching.any():
             touching[int(np.argmin(gap))] = True
-    raise NotConverged(label, most_steps, count, "number of surface nodes that violate contact")
+    raise NotConverged(
+        label,
+        most_steps,
+        count,
+        "number of surface nodes that violate contact",
+        "another mesh may do: change numerics.columns_min or numerics.contact_nodes",
+    )
