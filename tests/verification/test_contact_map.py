@@ -40,3 +40,12 @@ def test_no_scene_is_refused() -> None:
         found = rubfric.simulate(drawn(chance))
         assert float(found["friction_coefficient"]) > 0.0
         assert float(found["energy_closure"]) < 0.25
+
+
+def test_finite_strain_has_no_hole_between_pressures() -> None:
+    rubber = Material("one", 1.0, 0.49, (0.999,), (TIME,))
+    friction = []
+    for pressure in (0.078, 0.08, 0.082):
+        asked = CAMPAIGN.scene(2, 0.0375, pressure, plane="stress", kinematics="finite", preset="standard")
+        friction.append(float(rubfric.simulate(replace(asked, material=rubber))["friction_coefficient"]))
+    assert friction[1] == pytest.approx(0.5 * (friction[0] + friction[2]), rel=0.01)
