@@ -152,7 +152,7 @@ def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> Non
 
 
 def test_text_is_no_formula(tmp_path: Path) -> None:
-    texts = ["=1+2;x.csv", "+a", "-b", "@c", "-1.5", "+2e-3", "run", "'quoted", "1=2", ""]
+    texts = ["=1+2;x.csv", "+a", "-b", "@c", "＝1", "-1.5", "+2e-3", "run", "'quoted", "1=2", ""]
     table = pd.DataFrame({"run": texts, "number": -1.0, "mixed": [*texts[:-1], -3.5]})
     write_table(table, tmp_path / "points.csv")
     lines = (tmp_path / "points.csv").read_text().splitlines()[1:]
