@@ -1,13 +1,14 @@
 # Friction of rubber on rough roads: every scene, table and figure of the campaign in config/config.yaml.
 #   snakemake -j2                                       the paper
 #   snakemake -j2 --configfile config/minimal.yaml      a campaign of under a minute
+#   snakemake -j2 --configfile mine.yaml                the grid of your own rubber and road alone
 import sys
 
 from snakemake.utils import min_version
 
 from rubfric.files import check_folder, check_place, remove_parts
 from rubfric.config.campaign import Campaign
-from rubfric.config.overlay import read_yaml
+from rubfric.config.overlay import OWN, own_campaign, read_yaml
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
 from rubfric.runner.reruns import check_records
 from rubfric.rig.files import rig_files
@@ -26,8 +27,14 @@ try:
     if workflow.is_main_process:
         for path in workflow.configfiles:
             read_yaml(path)
+    ABOVE = workflow.config_settings.overwrite_config
+    OWN_CAMPAIGN = bool(OWN & set(ABOVE))
+    config.update(own_campaign(config, ABOVE))
     CAMPAIGN = Campaign.from_config(config)
-    RIG_FILES = rig_files(CAMPAIGN.rig)
+    if workflow.is_main_process:
+        CAMPAIGN.unlikely()  # refuses what cannot be meant
+    config.update(CAMPAIGN.choices())  # what follows from the grid, for the report
+    RIG_FILES = rig_files(CAMPAIGN.rig) if CAMPAIGN.rig else []
 except InvalidInput as error:
     sys.exit(f"The config is wrong: {error}.")
 try:
@@ -62,8 +69,8 @@ rule all:
         TABLES,
         RIG_TABLES,
         FIGURES,
-        rules.march_figure.output,
-        rules.claims.output,
+        MARCH_FIGURE,
+        CLAIM_FILES,
         rules.explorer.output,
 
 

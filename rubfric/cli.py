@@ -8,6 +8,8 @@ from pathlib import Path
 
 import rubfric
 from rubfric.config import campaign as campaigns
+from rubfric.config.begin import begin
+from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
@@ -21,6 +23,7 @@ example:
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
   rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
+  rubfric init mine.yaml
 
 The rubber, the road and the numerics come from config/config.yaml, and what --config lays over it.
 For whole campaigns run snakemake in the project's folder.
@@ -81,6 +84,13 @@ def _parser() -> argparse.ArgumentParser:
         "--restart", type=Path, metavar="FILE", help="go on from this file where it exists, and leave the state in it"
     )
     march.set_defaults(run=_march)
+    init = commands.add_parser(
+        "init",
+        help="write a config of your own rubber, road and grid to begin with",
+        description="Write a config with comments and units, for snakemake -j2 --configfile FILE.",
+    )
+    init.add_argument("file", metavar="FILE", help="config to write, mine.yaml say; a file that exists is left alone")
+    init.set_defaults(run=_init)
     add_rig(commands, _configs)
     return parser
 
@@ -132,6 +142,8 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     campaign = campaigns.load(*_configs(options.config or []))
     names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy")
     scene = campaign.scene(**{name: getattr(options, name) for name in names})
+    for sentence in check_plausible(scene.material, campaign.road, [scene.velocity], [scene.pressure]):
+        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene
@@ -153,7 +165,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 def _march(options: argparse.Namespace) -> int:
     campaign, scene = _read(options)
-    arguments = campaign.transient.procedure()
+    arguments = campaign.procedure()
     names = ("start", "columns", "steps_per_wavelength", "wavelengths")
     arguments |= {name: getattr(options, name) for name in names if getattr(options, name) is not None}
     from rubfric.marching import march
@@ -169,6 +181,12 @@ def _march(options: argparse.Namespace) -> int:
     if options.output:
         write(build(found, steady), options.output)
         print(f"\nWritten to {options.output}")
+    return 0
+
+
+def _init(options: argparse.Namespace) -> int:
+    begin(options.file)
+    print(f"{options.file} is written: edit it, then run   snakemake -j2 --configfile {options.file}")
     return 0
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.models import VirtualRig
 from rubfric.config.overlay import read_yaml
+from rubfric.config.plausibility import check_area
+from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.rig.format import AS_FOUND, FORMAT, Format
 from rubfric.rig.units import QUANTITIES, check_factor
@@ -245,7 +246,7 @@ def _windows(key: str, value: Any) -> Windows:
 _READERS: dict[str, Any] = {
     "columns": _columns,
     "units": _units,
-    "area": rules(VirtualRig)["area"].check,
+    "area": lambda key, value: check_area(key, rules(VirtualRig)["area"].check(key, value)),
     "normal": Number(unit="N").check,
     "sampling": Number(unit="Hz").check,
     "traction": rules(VirtualRig)["traction"].check,

@@ -22,7 +22,7 @@ from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from rubfric.runner.findings import findings
-from rubfric.runner.progress import Failure, Progress, amounts, duration
+from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
 _SHORTEST, _LONGEST = 5.0, 60.0
@@ -57,6 +57,14 @@ class RunLog(logging.Handler):
         Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
         Where the lines go beside the file; None for nowhere.
+    opening : callable
+        Returns the lines that come first: what is understood of the config.
+    expected : callable, optional
+        Takes a rule; returns how long one of its jobs takes, s.
+    at_once : callable
+        Returns how many jobs may run at a time.
+    leftovers : callable
+        Removes what an earlier config made and this one does not, once tables are made; returns what to say of it.
     """
 
     def __init__(
@@ -69,12 +77,18 @@ class RunLog(logging.Handler):
         dry: Callable[[], bool] = lambda: False,
         seconds: Callable[[str], float | None] = lambda log: None,
         stream: TextIO | None = sys.stderr,
+        opening: Callable[[], list[str]] = list,
+        expected: Callable[[str], float] | None = None,
+        at_once: Callable[[], int] = lambda: 1,
+        leftovers: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__()
         self._results, self._path = results, Path(results) / "logs" / "run.log"
         self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
         self._dry, self._seconds, self._stream = dry, seconds, stream
+        self._opening, self._expected, self._at_once, self._leftovers = opening, expected, at_once, leftovers
         self._progress = Progress({})
+        self._to_do = "To do: nothing"
         self._would: list[tuple[str, str]] = []
         self._interrupted = False
         self._over = threading.Event()
@@ -104,7 +118,7 @@ class RunLog(logging.Handler):
 
     def begin(self) -> None:
         """Begin the log; from now on it gets a line now and then."""
-        self._append([f"{_now()}  {' '.join(sys.argv)}"])
+        self._append([f"{_now()}  {' '.join(sys.argv)}", *(f"  {line}" for line in [*self._opening(), self._to_do])])
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
@@ -134,10 +148,14 @@ class RunLog(logging.Handler):
     def _plan(self, stats: Mapping[str, int]) -> None:
         planned = {rule: count for rule, count in stats.items() if rule != "total" and rule not in self._targets}
         if not self._dry():
-            self._progress = Progress(planned)
-            self._show([f"To do: {amounts(planned)}"])
+            self._progress = Progress(planned, expected=self._expected, at_once=self._at_once())
+            left = self._progress.remaining()
+            self._to_do = f"To do: {amounts(planned)}" + (f"; about {coarse(left)}" if left else "")
+            self._show([*self._opening(), self._to_do])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
-            self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
+            left = Progress(planned, expected=self._expected, at_once=self._at_once()).remaining()
+            about = f"; in about {coarse(left)}" if left else ""
+            self._show([*self._opening(), f"Would be made: {amounts(planned)}{about}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
         rule = about["rule_name"]
@@ -181,9 +199,10 @@ class RunLog(logging.Handler):
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
         finished = self._progress.finished
-        if {"scale_table", "total_table"} & set(finished) or "scene" not in finished:
+        made = {"scale_table", "total_table"} & set(finished)
+        if made or "scene" not in finished:
             lines += findings(self._tables)
-        return lines
+        return [*lines, *(self._leftovers() if made else [])]
 
     def _places(self) -> list[str]:
         first = [path for path in self._first if os.path.exists(path)]

@@ -15,6 +15,9 @@ from rubfric.checksums import fingerprint
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
+from rubfric.runner.leftovers import remove_leftovers
+from rubfric.runner.opening import Costs, understood
+from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import stamp
 from rubfric.studies.accuracy.scenes import (
@@ -30,7 +33,7 @@ ROAD = CAMPAIGN.road_name
 # Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
-    figures="2 Figures of the paper",
+    figures="2 Figures",
     tables="3 Tables",
     accuracy="4 Accuracy",
     stability="5 Stability",
@@ -55,10 +58,6 @@ localrules:
     campaign_figure,
     field_figure,
     march_figure,
-    rig_points,
-    rig_figure,
-    rig_schematic,
-    claims,
     explorer,
     accuracy_tables,
     accuracy_figure,
@@ -170,7 +169,7 @@ def criteria(campaign):
     fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
-        "studied": list(campaign.aspect_study.pressures),
+        "studied": list(getattr(campaign.aspect_study, "pressures", ())),
         "profiled": {
             "scale": [fields.scale],
             "velocity": list(fields.velocities),
@@ -178,8 +177,24 @@ def criteria(campaign):
             "aspect": [campaign.aspect],
         },
         "difference": campaign.claims.difference,
-        "saturation": campaign.transient.saturation,
+        "saturation": campaign.procedure()["saturation"],
         "total_pressure": campaign.figures.total_pressure,
+    }
+
+
+def made_for_a_config():
+    """Return what the present config makes that another may not, by rule."""
+    pages = [path.removesuffix("csv") + "html" for path in TABLES]
+    return {
+        **dict.fromkeys(["scale_table", "total_table"], [*TABLES, *pages]),
+        **dict.fromkeys(
+            ["campaign_figure", "field_figure", "total_figure", "whole_figure"]
+            + ["rig_figure", "rig_schematic", "march_figure"],
+            [*FIGURES, *MARCH_FIGURE],
+        ),
+        "rig_points": RIG_TABLES,
+        "claims": CLAIM_FILES,
+        **({} if WHOLE else {"whole_collection": []}),
     }
 
 
@@ -188,6 +203,7 @@ def follow(workflow):
     output = workflow.output_settings
     quiet = output.quiet or set()
     stream = sys.stdout if output.stdout else sys.stderr
+    costs = Costs.of(CAMPAIGN)
     run = RunLog(
         RESULTS,
         targets=[rule.name for rule in workflow.rules if not rule.output],
@@ -195,7 +211,7 @@ def follow(workflow):
         first=[
             f"{RESULTS}/{path}"
             for path in (
-                "claims.html",
+                *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
@@ -204,6 +220,15 @@ def follow(workflow):
         dry=lambda: workflow.dryrun,
         seconds=jobs.seconds,
         stream=None if Quietness.ALL in quiet else stream,
+        opening=lambda: understood(CAMPAIGN, OWN_CAMPAIGN),
+        expected=lambda rule: costs.job(rule, kind(rule)),
+        at_once=lambda: workflow.resource_settings.cores or 1,
+        leftovers=lambda: remove_leftovers(
+            ".snakemake/metadata",
+            RESULTS,
+            [*made_for_a_config()],
+            [path for paths in made_for_a_config().values() for path in paths],
+        ),
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run

@@ -1,13 +1,12 @@
-# The paper's figures: name, then the arguments of its draw function. Figs 2 and 4 show the fields of a few scenes.
-STUDY = {
+# The figures: name, then the arguments of its draw function. Figs 2 and 4 show the fields of a few scenes.
+STUDY = CAMPAIGN.aspect_study and {
     "scales": list(CAMPAIGN.aspect_study.scales),
     "pressures": list(CAMPAIGN.aspect_study.pressures),
     "aspects": list(CAMPAIGN.aspect_study.aspects),
 }
 CAMPAIGN_FIGURES = {
-    "fig1": STUDY,
-    "fig3": STUDY,
-    "fig6": {"aspect": CAMPAIGN.aspect},
+    **({"fig1": STUDY, "fig3": STUDY} if STUDY else {}),
+    "fig6": {"aspect": CAMPAIGN.aspect, "micro": bool(CAMPAIGN.claims)},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
 # The whole road: its friction, from the table of totals; and the block on it, light and heavy, slow to fast.
@@ -45,7 +44,7 @@ FIGURE_WORDS = {
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
 }
-RIG_FIGURES = ["fig8", "fig9"]
+RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
     for figure in sorted(

@@ -1,4 +1,5 @@
 # Tables of the campaign.
+TITLE = f"Friction of rubber {RUBBER} on road {ROAD}"
 TABLES = [
     *(f"{RESULTS}/tables/friction_scale_{scale}.csv" for scale in CAMPAIGN.scales),
     f"{RESULTS}/tables/friction_total.csv",
@@ -29,6 +30,7 @@ rule scale_table:
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
     params:
+        title=TITLE,
         collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
@@ -41,6 +43,7 @@ rule scale_table:
             campaign=input.campaign,
             collected=params.collected,
             scale=int(wildcards.scale),
+            title=params.title,
         )
 
 
@@ -76,6 +79,7 @@ rule total_table:
         f"{RESULTS}/logs/tables/friction_total.log",
     params:
         road=CAMPAIGN.whole_parameters(),
+        title=TITLE,
         collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
@@ -89,6 +93,7 @@ rule total_table:
             whole=list(input.whole),
             collected=params.collected,
             road=params.road,
+            title=params.title,
         )
 
 

@@ -1,6 +1,9 @@
-# Press and slide in time, the paper's procedure: a few scenes, for Fig. 5.
+# Press and slide in time, the paper's procedure: a few scenes, for Fig. 5, where the config asks for them.
 MARCHES = CAMPAIGN.marches()
 MARCH_FILES = [march_file(name) for name in MARCHES]
+MARCH_FIGURE = [
+    f"{RESULTS}/figures/fig5.{kind}" for kind in ("pdf", "png") if CAMPAIGN.transient
+]
 
 
 rule march:
@@ -14,7 +17,7 @@ rule march:
     priority: 10
     params:
         parameters=lambda wildcards: MARCHES[wildcards.scene].parameters(),
-        procedure=CAMPAIGN.transient.procedure(),
+        procedure=CAMPAIGN.procedure(),
         version=rubfric.__version__,
     message:
         "march of {wildcards.scene}"

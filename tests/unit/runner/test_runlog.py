@@ -76,6 +76,26 @@ def run(tmp_path: Path, snakemake: Snakemake) -> Iterator[Run]:
     made.log.close()
 
 
+def test_it_opens_with_what_is_understood_and_how_long_it_takes(tmp_path: Path, snakemake: Snakemake) -> None:
+    removed = ["removed: a table"]
+    run = Run(
+        tmp_path,
+        snakemake,
+        **{"opening": lambda: ["a rubber"], "expected": lambda rule: 60.0, "at_once": lambda: 2},
+        leftovers=lambda: removed,
+    )
+    snakemake.send("RUN_INFO", "Job stats", stats={"total_table": 4})
+    assert run.said == ["  a rubber", "  To do: 4 tables; about 2 min"]
+    run.log.begin()
+    assert run.written[1:] == run.said
+    run.log.succeed()  # without a table nothing is removed
+    assert not any("removed" in line for line in run.said)
+    snakemake.start(0, rule="total_table")
+    snakemake.finish(0)
+    run.log.succeed()
+    assert "  removed: a table" in run.said
+
+
 def test_plan_stages_and_end_are_reported(run: Run, snakemake: Snakemake) -> None:
     snakemake.send("RUN_INFO", "Job stats", stats=STATS)
     run.log.begin()
@@ -92,7 +112,7 @@ def test_plan_stages_and_end_are_reported(run: Run, snakemake: Snakemake) -> Non
     assert run.said[2] == "  Done in T: 3 scenes, 1 table"
     assert run.said[3].startswith("  slowest: ")
     assert run.said[4].endswith(f"fields in {run.folder}/scenes")
-    assert run.written[1:] == run.stream.getvalue().splitlines()[1:]
+    assert run.written[1:] == run.stream.getvalue().splitlines()
 
 
 def test_file_gathers_runs_each_with_its_date(run: Run, snakemake: Snakemake) -> None:
