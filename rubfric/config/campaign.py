@@ -13,6 +13,7 @@ from itertools import product
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.default import over_default
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -304,10 +305,16 @@ class Campaign:
         return {scene.name: scene for scene in scenes}
 
 
-def load(*paths: str | os.PathLike[str]) -> Campaign:
-    """Read one or more YAML configs, each laid over the ones before, and check the whole.
+def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
+    """Read one or more configs, each laid over the ones before, and check the whole.
 
-    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml.
+    A first one that is not complete is laid over the paper's campaign, which the package holds: ``load("mine.yaml")``
+    and ``load({"plane": "strain"})`` need the changes only, and ``load()`` is the paper's.
+
+    Parameters
+    ----------
+    *configs : path-like or mapping
+        YAML files, or what such a file holds, as a dict.
 
     Raises
     ------
@@ -316,6 +323,6 @@ def load(*paths: str | os.PathLike[str]) -> Campaign:
     FileNotFoundError
         For a missing file.
     """
-    campaign = Campaign.from_config(overlaid(paths, Config.model_fields))
+    campaign = Campaign.from_config(overlaid(over_default(*configs), Config.model_fields))
     campaign.unlikely()
     return campaign

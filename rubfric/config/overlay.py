@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -83,12 +84,41 @@ def _key_given_twice(tree: yaml.Node | None) -> str:
     return ""
 
 
-def overlaid(paths: Iterable[str | os.PathLike[str]], keys: Iterable[str]) -> dict[str, Any]:
-    """Read one or more YAML files, each laid over the ones before.
+def as_typed(config: Any, given: Any) -> Any:
+    """Return a config whose entries from Snakemake's command line are the numbers that they were written as.
+
+    What is nested there, ``--config 'grid={"aspect": 0.5}'``, arrives as text.
 
     Parameters
     ----------
-    paths : iterable of path-like
+    config : mapping
+        The whole config.
+    given : mapping
+        What the command line gave, as Snakemake read it.
+    """
+    if isinstance(config, Mapping) and isinstance(given, Mapping):
+        return {key: as_typed(value, given[key]) if key in given else value for key, value in config.items()}
+    return _typed(given) if config == given else config
+
+
+def _typed(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_typed(item) for item in value]
+    if not isinstance(value, str):
+        return value
+    for kind in (int, float):
+        with suppress(ValueError):
+            return kind(value)
+    return {"null": None, "~": None, "true": True, "false": False}.get(value.lower(), value)
+
+
+def overlaid(configs: Iterable[str | os.PathLike[str] | Mapping[str, Any]], keys: Iterable[str]) -> dict[str, Any]:
+    """Read one or more configs, each laid over the ones before.
+
+    Parameters
+    ----------
+    configs : iterable of path-like or mapping
+        YAML files, or what such a file holds.
     keys : iterable of str
         What such a file may hold, for the message.
 
@@ -99,11 +129,11 @@ def overlaid(paths: Iterable[str | os.PathLike[str]], keys: Iterable[str]) -> di
     FileNotFoundError
         For a missing file.
     """
-    entries = []
-    for path in paths:
-        entry = read_yaml(path)
+    entries: list[Mapping[str, Any]] = []
+    for config in configs:
+        entry = config if isinstance(config, Mapping) else read_yaml(config)
         if not isinstance(entry, Mapping):
-            raise InvalidInput(f"{os.fspath(path)} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
+            raise InvalidInput(f"{config} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
         entries.append(entry)
     if not entries:
         raise InvalidInput("no config was given: name at least one file")

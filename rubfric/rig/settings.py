@@ -10,6 +10,7 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.config.overlay import read_yaml
+from rubfric.config.place import Place
 from rubfric.config.plausibility import check_area
 from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
@@ -223,7 +224,7 @@ def _bearing(key: str, value: Any) -> Bearing:
         raise InvalidInput(f"{key}.file is {checks.shown(file)}, but must be the path of an unloaded pull")
     if file and "force" in value:
         raise InvalidInput(f"{key} has both a force and a file, but the force comes from the file: keep one of them")
-    return Bearing(file=file, **numbers)
+    return Bearing(file=Place().check(f"{key}.file", file) or "" if file else "", **numbers)
 
 
 def _forces(key: str, value: Any) -> dict[str, float]:

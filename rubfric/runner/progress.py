@@ -145,6 +145,11 @@ class Progress:
         return {number: job.logs for number, job in self._running.items()}
 
     @property
+    def complete(self) -> bool:
+        """Whether every job that was planned has its result."""
+        return sum(self.finished.values()) >= self._planned.total() > 0
+
+    @property
     def elapsed(self) -> float:
         """Time since the run began, s."""
         return self._clock() - self._began

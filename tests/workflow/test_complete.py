@@ -158,10 +158,6 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
 
 
 @pytest.mark.thorough
-def test_workflow_is_found_where_tools_look_for_it(template: Project) -> None:
-    assert template.plan("-s", "workflow/Snakefile").jobs == {}
-
-
 def test_targets_ask_for_a_part(empty_project: Project) -> None:
     tables = empty_project.plan("tables").jobs
     whole = {"whole_scene": 4, "whole_collection": 1}

@@ -26,13 +26,10 @@ JUDGED = {
 
 if JUDGE:
 
-    localrules:
-        claims,
-
     rule reading:
         input:
             package_files("rubfric.studies.paper.observation"),
-            script="workflow/scripts/observe_scenes.py",
+            script=script_copy("observe_scenes.py"),
         output:
             f"{RESULTS}/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.csv",
         log:
@@ -40,6 +37,7 @@ if JUDGE:
         wildcard_constraints:
             reading=r"[A-Za-z0-9_-]+",
             batch=r"scale\d+_v[0-9.e-]+",
+        localrule: workflow.remote_exec
         params:
             scenes=lambda wildcards: {
                 name: scene.parameters()
@@ -55,7 +53,7 @@ if JUDGE:
         input:
             package_files("rubfric.pages.claims", "rubfric.studies.paper.judge"),
             page_files("claims"),
-            script="workflow/scripts/judge_claims.py",
+            script=script_copy("judge_claims.py"),
             results=[
                 *(JUDGED["campaign"], *JUDGED["profiles"], *JUDGED["marches"]),
                 *(JUDGED["totals"], *JUDGED["points"]),
@@ -83,6 +81,7 @@ if JUDGE:
             ),
         log:
             f"{RESULTS}/logs/claims.log",
+        localrule: True
         params:
             digests={
                 "campaign": COLLECTED,

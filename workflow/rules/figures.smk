@@ -60,7 +60,7 @@ FIGURES = [
 rule campaign_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=rules.campaign.output[0],
     output:
         **pictures(
@@ -72,6 +72,7 @@ rule campaign_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(CAMPAIGN_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
         digests=[COLLECTED],
@@ -92,7 +93,7 @@ rule campaign_figure:
 rule field_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
     output:
         **pictures(
@@ -104,6 +105,7 @@ rule field_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(FIELD_FIGURES),
+    localrule: True
     params:
         digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
     message:
@@ -120,15 +122,10 @@ rule field_figure:
         )
 
 
-localrules:
-    total_figure,
-    whole_figure,
-
-
 rule total_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_total.py",
+        script=script_copy("draw_total.py"),
         table=rules.total_table.output.table,
         campaign=rules.campaign.output[0],
     output:
@@ -141,6 +138,7 @@ rule total_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(TOTAL_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
@@ -162,7 +160,7 @@ rule total_figure:
 rule whole_figure:
     input:
         DRAWN_BY["fig11"],
-        script="workflow/scripts/draw_whole.py",
+        script=script_copy("draw_whole.py"),
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:
         **pictures(
@@ -170,6 +168,7 @@ rule whole_figure:
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
+    localrule: True
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
     message:

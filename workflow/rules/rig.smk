@@ -8,17 +8,12 @@ RIG_TABLES = [
 
 if CAMPAIGN.rig:
 
-    localrules:
-        rig_points,
-        rig_figure,
-        rig_schematic,
-
     rule rig_points:
         input:
             package_files(
                 "rubfric.rig.virtual", "rubfric.rig.summary", "rubfric.results.tables"
             ),
-            script="workflow/scripts/measure_rig.py",
+            script=script_copy("measure_rig.py"),
             totals=rules.total_table.output.table,
             measured=RIG_FILES,
         output:
@@ -38,6 +33,7 @@ if CAMPAIGN.rig:
             ),
         log:
             f"{RESULTS}/logs/tables/rig_points.log",
+        localrule: True
         params:
             rig=CAMPAIGN.rig.model_dump(),
         message:
@@ -55,13 +51,14 @@ if CAMPAIGN.rig:
     rule rig_figure:
         input:
             package_files("rubfric.figures.fig9"),
-            script="workflow/scripts/draw_rig.py",
+            script=script_copy("draw_rig.py"),
             totals=rules.total_table.output.table,
             points=rules.rig_points.output.points,
         output:
             **pictures("fig9", "../report/fig9.rst", "friction on the test rig"),
         log:
             f"{RESULTS}/logs/figures/fig9.log",
+        localrule: True
         params:
             pressures=list(CAMPAIGN.rig.pressures),
             speeds=list(CAMPAIGN.rig.speeds),
@@ -81,11 +78,12 @@ if CAMPAIGN.rig:
     rule rig_schematic:
         input:
             package_files("rubfric.figures.fig8"),
-            script="workflow/scripts/draw_schematic.py",
+            script=script_copy("draw_schematic.py"),
         output:
             **pictures("fig8", "../report/fig8.rst", "the test rig"),
         log:
             f"{RESULTS}/logs/figures/fig8.log",
+        localrule: True
         message:
             "Drawing fig8"
         run:

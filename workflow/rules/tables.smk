@@ -10,7 +10,7 @@ rule scale_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
         page_files("table"),
-        script="workflow/scripts/tabulate_scale.py",
+        script=script_copy("tabulate_scale.py"),
         campaign=rules.campaign.output[0],
     output:
         table=report(
@@ -29,6 +29,7 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    localrule: True
     params:
         title=TITLE,
         collected=COLLECTED,
@@ -53,7 +54,7 @@ rule total_table:
             "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
         ),
         page_files("table"),
-        script="workflow/scripts/tabulate_total.py",
+        script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
     output:
@@ -77,6 +78,7 @@ rule total_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
+    localrule: True
     params:
         road=CAMPAIGN.whole_parameters(),
         title=TITLE,

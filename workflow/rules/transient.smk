@@ -9,12 +9,13 @@ MARCH_FIGURE = [
 rule march:
     input:
         package_files("rubfric.results.march", "rubfric.marching"),
-        script="workflow/scripts/march_scene.py",
+        script=script_copy("march_scene.py"),
     output:
         march_file("{scene}"),
     log:
         f"{RESULTS}/logs/marches/{RUBBER}/{ROAD}/{{scene}}.log",
     priority: 10
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: MARCHES[wildcards.scene].parameters(),
         procedure=CAMPAIGN.procedure(),
@@ -39,12 +40,13 @@ rule marches:
 rule march_figure:
     input:
         package_files("rubfric.figures.fig5"),
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=MARCH_FILES,
     output:
         **pictures("fig5", "../report/fig5.rst", "friction settling in time"),
     log:
         f"{RESULTS}/logs/figures/fig5.log",
+    localrule: True
     params:
         digests=[scene.digest for scene in MARCHES.values()],
     message:
