@@ -2,7 +2,7 @@
 # about an hour on two cores, and is no part of `all`. It measures the paper's rubber and road, whatever the config.
 PAPER = load("config/config.yaml")
 PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
-LADDERS = fixed_scenes(PAPER)
+LADDERS = fixed_scenes(PAPER) | total_scenes(PAPER)
 DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
     PAPER, count=48, seed=2019
 )
@@ -25,7 +25,7 @@ ACCURACY_WORDS = {
 
 rule ladder:
     input:
-        package_files("rubfric.studies.accuracy.ladder"),
+        package_files("rubfric.studies.accuracy.ways"),
         script="workflow/scripts/measure_ladder.py",
     output:
         f"{RESULTS}/accuracy/ladders/{{scene}}.csv",

@@ -21,6 +21,7 @@ from rubfric.studies.accuracy.scenes import (
     batches,
     drawn_scenes,
     fixed_scenes,
+    total_scenes,
     whole_scenes,
 )
 

@@ -44,6 +44,19 @@ _FIXED = (
     (4, 1000, 5, 0.75, "strain"),
     (4, 10000, 0.5, 0.75, "stress"),
 )
+# On the whole road: speed in mm/s, pressure in MPa, plane, kinematics. In finite strain the light and fast ones, whose
+# references are affordable.
+_TOTALS = (
+    (0.1, 0.1, "strain", "small"),
+    (10, 0.5, "stress", "small"),
+    (100, 5, "strain", "small"),
+    (1000, 0.5, "strain", "small"),
+    (1000, 5, "stress", "small"),
+    (10000, 0.5, "stress", "small"),
+    (100, 0.1, "stress", "finite"),
+    (1000, 0.2, "strain", "finite"),
+    (10000, 0.5, "stress", "finite"),
+)
 # Ranges of the drawn scenes: speeds in mm/s, pressures in MPa, height over width; inside and outside.
 _RANGES = {
     "inside": {"velocity": (0.1, 1e4), "pressure": (0.1, 5.0), "aspect": (0.25, 1.5)},
@@ -64,6 +77,15 @@ def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
         for scale, velocity, pressure, aspect, plane in _FIXED
     )
     return {scene.name: scene for scene in scenes}
+
+
+def total_scenes(campaign: Campaign) -> dict[str, Scene]:
+    """Return the scenes on which the ways to the total are compared, by their kinematics and name."""
+    scenes = (
+        campaign.scene(ALL, velocity, pressure, plane=plane, kinematics=kinematics)
+        for velocity, pressure, plane, kinematics in _TOTALS
+    )
+    return {f"{scene.kinematics}_{scene.name}": scene for scene in scenes}
 
 
 def drawn_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
