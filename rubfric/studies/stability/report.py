@@ -22,6 +22,7 @@ HEADINGS = {
     "velocity": "velocity_mm_per_s",
     "pressure": "pressure_MPa",
     "aspect": "aspect",
+    "waves": "waves",
     "slope": "slope",
     "wavelength": "wavelength_mm",
     "poissons_ratio": "poissons_ratio",
