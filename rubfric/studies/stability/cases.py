@@ -170,7 +170,7 @@ def cases() -> tuple[Case, ...]:
         *_plane("branches_share", [way | share for way in both], branches=(0,), long_term_fraction=(1.0,)),
         *_plane("limits", both, branches=(1,), velocity=LIMIT_SPEEDS, pressure=(0.05, 5.0)),
         *_plane(
-            "waves", both, waves=(1, 2, 4, 16, 64), slope=(0.3, 1.0, 3.0), velocity=(1.0, 1e4), pressure=(0.1, 5.0)
+            "waves", both, waves=(1, 2, 4, 16, 64), slope=(0.3, 1.0, 3.0), velocity=(0.01, 1e3), pressure=(0.2, 5.0)
         ),
         *_plane("march_speed_pressure", both, "march", velocity=(1e-9, 1e-3, 1e3, 1e9), pressure=(1e-6, 1.0, 1e3)),
         *_plane(
