@@ -1,8 +1,10 @@
 # The paper's claims, judged by the campaign; and other readings of what the paper leaves open, in batches of one scale
-# and speed, so that a new speed runs its own scenes only.
+# and speed, so that a new speed runs its own scenes only. Each has the whole road too, the first of random ones, with its
+# coarsest scale.
 READINGS = {name: CAMPAIGN.reading(name) for name in CAMPAIGN.claims.compare}
 OBSERVED = {
-    name: batches_by_speed(reading.scenes()) for name, reading in READINGS.items()
+    name: batches_by_speed(reading.scenes() | whole_once(reading))
+    for name, reading in READINGS.items()
 }
 CLAIMS = {
     "claims": f"{RESULTS}/tables/claims.csv",
