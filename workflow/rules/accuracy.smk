@@ -6,7 +6,10 @@ LADDERS = fixed_scenes(PAPER) | total_scenes(PAPER)
 DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
     PAPER, count=48, seed=2019
 )
-DRAWN_BATCHES = dict(enumerate(batches(list(DRAWN), 6)))
+# Each in finite strain on the whole road is a job of its own: a reference takes two to three gigabytes.
+FINITE = finite_scenes(PAPER, count=12, seed=2019)
+DRAWN_BATCHES = dict(enumerate([*batches(list(DRAWN), 6), *batches(list(FINITE), 1)]))
+DRAWN |= FINITE
 ACCURACY = {
     name: f"{RESULTS}/accuracy/{name}.{kind}"
     for name, kind in [

@@ -21,6 +21,7 @@ from rubfric.scene.scene import ALL
 from rubfric.studies.accuracy.scenes import (
     batches,
     drawn_scenes,
+    finite_scenes,
     fixed_scenes,
     total_scenes,
     whole_scenes,

@@ -66,8 +66,10 @@ _SLOPES, _WAVELENGTHS, _BRANCHES = (0.03, 1.0), (2e-3, 5.0), 8
 SETS = tuple(_RANGES)
 # Whole roads other than the paper's: waves, the most often that the finest of them fits into the period, and the
 # steepest slope.
-WHOLE = "whole"
+WHOLE, FINITE = "whole", "finite"
 _WAVES, _FINEST, _STEEPEST = (2.0, 64.0), 128, (0.1, 3.0)
+# Ranges on the paper's whole road in finite strain.
+_LIGHT = {"velocity": (50.0, 1e4), "pressure": (0.1, 0.6), "aspect": (0.5, 1.0)}
 
 
 def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
@@ -123,8 +125,7 @@ def whole_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
     """Return drawn scenes on whole roads by name, ``whole_0`` to ``whole_<count - 1>``.
 
     Every other one is on the paper's road, inside its grid, with random phases; the others are outside, on roads of
-    two to 64 random waves. All are in small strain: in finite strain a scene itself may need most of the cells that a
-    mesh may have, and a reference has to be finer.
+    two to 64 random waves. All are in small strain; ``finite_scenes`` are in finite strain.
 
     Parameters
     ----------
@@ -136,6 +137,30 @@ def whole_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
     """
     rng = np.random.default_rng(seed)
     return {f"{WHOLE}_{number}": _whole(campaign, rng, number) for number in range(count)}
+
+
+def finite_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
+    """Return drawn scenes on the paper's whole road in finite strain by name, ``finite_0`` to ``finite_<count - 1>``.
+
+    Phases are random. All are light and fast: others need most of the cells that a mesh may have in finite strain, and
+    a reference has to be finer.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Its road and rubber.
+    count : int
+    seed : int
+        Of the random numbers.
+    """
+    rng = np.random.default_rng(seed)
+    found = {}
+    for number in range(count):
+        velocity, pressure, aspect = (_between(rng, *limits) for limits in _LIGHT.values())
+        road = replace(campaign.whole_road, phases=_phases(rng, len(campaign.road)))
+        scene = campaign.scene(ALL, velocity, pressure, aspect, PLANES[number % len(PLANES)], FINITE)
+        found[f"{FINITE}_{number}"] = replace(scene, road=road)
+    return found
 
 
 def _whole(campaign: Campaign, rng: np.random.Generator, number: int) -> Scene:
