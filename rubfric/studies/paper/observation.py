@@ -25,10 +25,8 @@ AXES = ("scale", "velocity", "pressure", "aspect")
 # The number of the whole road among the scales.
 WHOLE = 0
 # Contact fraction beyond which all scales at once are not solved in finite strain, and why in words.
-_MOST_CONTACT = 0.1
-DEAR = (
-    f"more than {_MOST_CONTACT:.0%} of the road is in contact, where all scales at once take minutes in finite strain"
-)
+_MOST_CONTACT = 0.05
+DEAR = f"more than {_MOST_CONTACT:.0%} of the road is in contact, where all scales at once may take minutes in finite strain"
 
 
 def depth_measures(result: xr.Dataset) -> dict[str, float]:
