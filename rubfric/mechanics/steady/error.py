@@ -14,7 +14,7 @@ ORDER = 1.5
 # calibrated, see the page on accuracy.
 _CHANGE, _ROUTES = 1.5, 1.3
 # Two meshes may agree by chance, the error along the road against that over the depth: no error is taken to be smaller
-# than this times the square of the mesh's size there, in the wave's own measure.
+# than this times the square of the mesh's size there, in the finest wave's own measure.
 _LEAST = 1.0 / 16.0
 # A mesh hardly finer than another says nothing of it.
 _LEAST_RATIO = 1.1
@@ -24,11 +24,13 @@ def discretisation_error(meshes: Sequence[OnMesh]) -> float:
     """Return the estimated error of friction by stress power on the last mesh, absolute, dimensionless.
 
     Every coarser mesh extrapolates to an error by either route, the difference between the routes is another, and the
-    size of the cells (2 pi / columns along the road, the growth of the rows over the depth) allows none smaller than
-    its square over 16: the largest counts.
+    size of the cells allows none smaller than its square over 16: the largest counts. That size is 2 pi over the
+    columns of the finest wave, or over the nodes of a spot of contact where these are more, and the growth of the rows
+    over the depth.
     """
     *coarser, fine = meshes
-    size = 2.0 * math.pi / fine.columns + fine.growth - 1.0
+    along = min(fine.waves / fine.columns, fine.spots / max(1, fine.contact_nodes))
+    size = 2.0 * math.pi * along + fine.growth - 1.0
     found = [
         _ROUTES * abs(fine.friction.stress_power - fine.friction.contact),
         _LEAST * size**2 * abs(fine.friction.stress_power),

@@ -44,6 +44,10 @@ class OnMesh:
     contact_nodes : int
         Surface nodes in contact.
     friction : Friction
+    waves : int
+        How many times the finest wave of the road fits into the columns.
+    spots : int
+        Separate places of contact; one on a single wave.
     """
 
     columns: int
@@ -51,6 +55,8 @@ class OnMesh:
     growth: float
     contact_nodes: int
     friction: Friction
+    waves: int = 1
+    spots: int = 1
 
 
 def fold_scene(scene: Scene, wavenumbers: Real) -> Folding:

@@ -26,7 +26,7 @@ AXES = ("scale", "velocity", "pressure", "aspect")
 WHOLE = 0
 # Contact fraction beyond which all scales at once are not solved in finite strain, and why in words.
 _MOST_CONTACT = 0.05
-DEAR = f"more than {_MOST_CONTACT:.0%} of the road is in contact, where all scales at once may take minutes in finite strain"
+DEAR = f"over {_MOST_CONTACT:.0%} of the road is in contact, where all scales at once may take minutes in finite strain"
 
 
 def depth_measures(result: xr.Dataset) -> dict[str, float]:
