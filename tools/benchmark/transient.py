@@ -42,11 +42,9 @@ MOST_WAVELENGTHS = 24
 # Of the whole road: kinematics, speed in mm/s, pressure in MPa; and of the cheapest march that is within 1 % of steady
 # friction, docs/whole_road.md: columns, growth of rows and steps for each finest wave.
 WHOLE = (
-    ("small", 1, 0.5, 1024, 1.3, 32),
     ("small", 100, 5, 1024, 1.3, 32),
     ("small", 1000, 5, 1024, 1.3, 32),
     ("small", 1000, 0.5, 3072, 1.2, 64),
-    ("finite", 100, 0.5, 2048, 1.3, 32),
     ("finite", 1000, 0.5, 2048, 1.3, 32),
 )
 STEPS_TIMED, LEAST_WAY = {"small": 200, "finite": 30}, 1.0 / 16.0
