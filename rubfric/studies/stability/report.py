@@ -157,10 +157,10 @@ def page(table: pd.DataFrame) -> str:
         "# Numerical stability at the extremes",
         "",
         f"{len(table)} cases, each in its own process with at most {MOST_SECONDS} s of processor time, "
-        f"{MOST_SECONDS_MANY} s on roads of many waves, and {MOST_MEMORY} MiB, floating-point errors and warnings counting "
-        "as failures. A case converges and keeps every bound (friction, contact pressure, gap, energy and dissipation not "
-        "negative; friction below the steepest slope; contact forces that carry the load; the three routes to friction in "
-        "agreement), or it is refused with a reason, or it fails.",
+        f"{MOST_SECONDS_MANY} s on roads of many waves, and {MOST_MEMORY} MiB, floating-point errors and warnings "
+        "counting as failures. A case converges and keeps every bound (friction, contact pressure, gap, energy and "
+        "dissipation not negative; friction below the steepest slope; contact forces that carry the load; the three "
+        "routes to friction in agreement), or it is refused with a reason, or it fails.",
         "",
         markdown_table(summary(table), numeric=True),
         "",
