@@ -80,6 +80,19 @@ rule claims:
     log:
         f"{RESULTS}/logs/claims.log",
     params:
+        digests={
+            "campaign": COLLECTED,
+            "profiles": [scene.digest for scene in CAMPAIGN.field_scenes().values()],
+            "marches": [scene.digest for scene in MARCHES.values()],
+            "readings": {
+                name: [
+                    scene.digest
+                    for batch in parts.values()
+                    for scene in batch.values()
+                ]
+                for name, parts in OBSERVED.items()
+            },
+        },
         criteria=criteria(CAMPAIGN),
         roads={name: reading.whole_parameters() for name, reading in READINGS.items()},
         about={

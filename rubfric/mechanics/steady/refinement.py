@@ -29,7 +29,7 @@ _NEAR = 1.5
 # Smallest and largest refinement that an error asks for, and how much more than its estimate says.
 _LEAST, _MOST, _MARGIN = 1.5, 2.0, 1.1
 # Where so fine a mesh may not be solved, one finer by this factor is worth while.
-_WORTH = 1.2
+LEAST_WORTH = 1.2
 
 Solution = TypeVar("Solution", bound=SteadySolution, covariant=True)
 
@@ -86,7 +86,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
 
 def _choices(scene: Scene, resolution: Resolution, factor: float, finite: bool) -> Iterator[Resolution]:
     """Yield finer meshes that may be solved, that of ``factor`` first; none that would be hardly finer."""
-    while factor >= _WORTH:
+    while factor >= LEAST_WORTH:
         finer = resolution.finer(scene, factor, finite)
         if finer.affordable(scene, finite):
             yield finer
@@ -125,5 +125,7 @@ def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, mesh
     touching = solution.contact.touching
     count, waves, spots = int(np.count_nonzero(touching)), finest_waves(scene.road), count_spots(scene, touching)
     block = solution.block
-    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, count, solution.friction, waves, spots))
+    first_row = float(block.row_positions[1] / block.column_width)
+    about = (block.columns, block.rows, resolution.growth, count, solution.friction, first_row, waves, spots)
+    meshes.append(OnMesh(*about))
     return solution

@@ -44,6 +44,8 @@ class OnMesh:
     contact_nodes : int
         Surface nodes in contact.
     friction : Friction
+    first_row : float
+        Height of the row of cells at the road over the width of a column.
     waves : int
         How many times the finest wave of the road fits into the columns.
     spots : int
@@ -55,6 +57,7 @@ class OnMesh:
     growth: float
     contact_nodes: int
     friction: Friction
+    first_row: float = 1.0
     waves: int = 1
     spots: int = 1
 

@@ -22,6 +22,8 @@ DEPTH = {
     "largest",
 }
 AXES = ("scale", "velocity", "pressure", "aspect")
+# Columns that are text: the scene that was simulated, and why it was refused.
+WORDS = ("scene_digest", "note")
 # The number of the whole road among the scales.
 WHOLE = 0
 # Contact fraction beyond which all scales at once are not solved in finite strain, and why in words.
@@ -58,7 +60,7 @@ def observe(scene: Scene) -> dict[str, Any]:
 
     So has a whole road that would take minutes.
     """
-    row: dict[str, Any] = {name: getattr(scene, name) for name in AXES}
+    row: dict[str, Any] = {name: getattr(scene, name) for name in AXES} | {"scene_digest": scene.digest}
     if scene.scale == ALL:
         row["scale"] = WHOLE
         if scene.kinematics != "small" and estimated_fraction(scene) > _MOST_CONTACT:
@@ -103,7 +105,7 @@ def among(observations: pd.DataFrame, chosen: Mapping[str, Iterable[float]]) -> 
 
 def table(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
     """Return observations as a table with all columns, whether or not any scene was solved."""
-    return pd.DataFrame(list(rows), columns=[*AXES, *SCALARS, *DEPTH, "note"])
+    return pd.DataFrame(list(rows), columns=[*AXES, *SCALARS, *DEPTH, *WORDS])
 
 
 def over_axes(observations: pd.DataFrame) -> xr.Dataset:
@@ -114,5 +116,5 @@ def over_axes(observations: pd.DataFrame) -> xr.Dataset:
     observations : pandas.DataFrame
         As from ``table``; each scene once.
     """
-    numbers = observations.drop(columns="note").astype(dict.fromkeys((*SCALARS, *DEPTH), float))
+    numbers = observations.drop(columns=list(WORDS)).astype(dict.fromkeys((*SCALARS, *DEPTH), float))
     return numbers.set_index(list(AXES)).to_xarray()
