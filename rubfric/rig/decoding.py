@@ -33,7 +33,9 @@ _SYMBOLS = "°µ²³±·×§«»“”„‘’–—…€"
 _LOOKED_AT, _ZEROS = 100_000, 0.3
 # Characters that text has at most by accident.
 _CONTROLS, _MOST_CONTROLS = bytes({*range(32)} - {*b"\t\n\v\f\r\x1b"}), 0.005
-_WORDS = re.compile(r"[^\W\d_]+")
+_WORDS, _CAMEL = re.compile(r"[^\W\d_]+"), re.compile(r"\w[À-ÞА-Я][a-zß-ÿа-я]")
+# First byte of the last character in daily use.
+_DAILY = {"shift_jis": 0x98, "gb2312": 0xD7, "euc_jp": 0xCF, "big5": 0xC6, "euc_kr": 0}
 
 
 def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, str]:
@@ -99,7 +101,7 @@ def _guessed(path: str, content: bytes, words: Sequence[str]) -> tuple[str, str]
             f"{path} is neither UTF-8 nor in any encoding tried ({', '.join(_GUESSES)}): export the record as UTF-8, "
             "or name its encoding under encoding in the YAML file of --columns"
         )
-    wanted = [word for word in words if not word.isascii()]
+    wanted = [word.casefold() for word in words if not word.isascii()]
     best = min(texts, key=lambda name: _oddity(name, texts[name][:_LOOKED_AT], wanted))
     note = (
         f"read in the encoding {best} ({_GUESSES[best][0]}), which was guessed; encoding in the YAML file of --columns "
@@ -110,21 +112,17 @@ def _guessed(path: str, content: bytes, words: Sequence[str]) -> tuple[str, str]
 
 def _oddity(name: str, text: str, wanted: Sequence[str]) -> tuple[int, float]:
     """Return what speaks against an encoding: headings that are missing, and the share of odd characters."""
-    missing = -sum(word in text for word in wanted)
     letters = odd = 0
-    for word in _WORDS.findall("".join(" " if one in _SYMBOLS else one for one in text)):
+    for word in _WORDS.findall(text.translate(dict.fromkeys(map(ord, _SYMBOLS), " "))):
         strange = [one for one in word if not one.isascii()]
-        letters += len(strange)
-        odd += sum(not _usual(name, one) for one in strange)
-        # Scripts are not mixed within a word; Western letters stand among plain ones.
+        # Western letters stand among plain ones; other scripts are not mixed with those, nor capitals in words.
         mixed = len(strange) < len(word)
-        if strange and (
-            (mixed != (name == "cp1252") and len(word) > 1) or re.search(r"\w[A-ZÀ-ÞА-Я][a-zß-ÿа-я]", word)
-        ):
-            odd += len(strange)
+        wrong = mixed != (name == "cp1252") and len(word) > 1
+        letters += len(strange)
+        odd += len(strange) if wrong or _CAMEL.search(word) else sum(not _usual(name, one) for one in strange)
     others = [one for one in text if not one.isascii() and not one.isalnum() and one not in _SYMBOLS]
     odd += sum(not _usual(name, one) for one in others)
-    return missing, odd / max(letters + len(others), 1)
+    return -sum(word in text.casefold() for word in wanted), odd / max(letters + len(others), 1)
 
 
 def _usual(name: str, letter: str) -> bool:
@@ -137,8 +135,4 @@ def _usual(name: str, letter: str) -> bool:
         code = letter.encode(common)
     except UnicodeEncodeError:
         return False
-    # Characters of the first level: those in daily use.
-    return len(code) == 2 and (
-        not unicodedata.name(letter, "").startswith("CJK")
-        or letter.encode(common)[0] < {"shift_jis": 0x99, "gb2312": 0xD8, "euc_jp": 0xD0, "big5": 0xC7}.get(common, 0)
-    )
+    return len(code) == 2 and (not unicodedata.name(letter, "").startswith("CJK") or code[0] <= _DAILY[common])

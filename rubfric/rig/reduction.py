@@ -45,8 +45,6 @@ REJECTED_COLUMNS = {
 }
 # Pressures, MPa, between which rubber is usually pressed onto a road, and above which none is.
 _LOWEST, _HIGHEST, _UNBEARABLE = 1e-4, 20.0, 200.0
-# What begins a formula in spreadsheets.
-_FORMULAS = ("=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠")
 # Part of the traction in sliding by which its zero may move.
 _LARGEST_DRIFT = 0.5
 
@@ -209,16 +207,11 @@ def _about_bearings(settings: Settings, drag: Drag) -> tuple[str, ...]:
     return drag.notes
 
 
-def _as_text(name: str) -> str:
-    """Return the path of a run so that no spreadsheet takes it for a formula."""
-    return f"./{name}" if name.startswith(_FORMULAS) else name
-
-
 def point_table(runs: Sequence[Reduced]) -> pd.DataFrame:
     """Return the points of some runs, one row each, units in the headings."""
     rows = [
         {
-            "run": _as_text(run.name),
+            "run": run.name,
             **{heading: getattr(point, name) for name, heading in COLUMNS.items()},
             "source": run.source,
         }
@@ -231,7 +224,7 @@ def point_table(runs: Sequence[Reduced]) -> pd.DataFrame:
 def rejected_table(runs: Sequence[Reduced]) -> pd.DataFrame:
     """Return the rejected windows of some runs and the reasons, one row each, units in the headings."""
     rows = [
-        {"run": _as_text(run.name)}
+        {"run": run.name}
         | {heading: getattr(window, name) for name, heading in REJECTED_COLUMNS.items()}
         | {"source": run.source}
         for run in runs

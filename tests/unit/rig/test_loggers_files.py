@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
+from rubfric.results.tables import read_table, write_table
 from rubfric.rig.reduction import Reduced, point_table, reduce_files
 from rubfric.rig.settings import read_settings
 
@@ -443,5 +444,6 @@ def test_name_of_a_run_is_no_formula(name: str, tmp_path: Path, monkeypatch: pyt
     monkeypatch.chdir(tmp_path)
     Path(name).write_text(f"{TIDY}\n{rows()}", encoding="utf-8")
     runs = reduce_files([name], read_settings(None, area=100.0))
-    assert list(point_table(runs)["run"]) == [f"./{name}"]
-    assert Path(point_table(runs)["run"].iloc[0]).is_file()
+    write_table(point_table(runs), "points.csv")
+    assert Path("points.csv").read_text(encoding="utf-8").splitlines()[1].startswith(f"'{name},steady,")
+    assert list(read_table("points.csv", ["run"])["run"]) == [name]
