@@ -34,6 +34,8 @@ rule ladder:
         f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
     log:
         f"{RESULTS}/logs/accuracy/{{scene}}.log",
+    wildcard_constraints:
+        scene="|".join(LADDERS),
     localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: LADDERS[wildcards.scene].parameters(),
