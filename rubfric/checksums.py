@@ -115,6 +115,8 @@ def _beside(path: Path) -> Path:
 def _content(path: str | os.PathLike[str]) -> bytes:
     try:
         return Path(path).read_bytes()
+    except FileNotFoundError as error:
+        raise BrokenResult(f"{os.fspath(path)} is missing: run again, which makes it") from error
     except OSError as error:
         raise _unusable(path, error.strerror or str(error)) from error
 

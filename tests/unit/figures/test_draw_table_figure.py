@@ -11,6 +11,7 @@ import pytest
 
 import rubfric
 from rubfric.errors import BrokenResult
+from rubfric.results.tables import write_table
 
 SCRIPT = Path(rubfric.__file__).resolve().parents[1] / "workflow" / "scripts" / "draw_table_figure.py"
 
@@ -23,7 +24,7 @@ def test_figure_is_drawn_from_its_csv_file(
     tmp_path: Path,
 ) -> None:
     made = {"pareto": make_ladder, "calibration": make_calibration}[figure]()
-    made.to_csv(tmp_path / "table.csv", index=False)
+    write_table(made, tmp_path / "table.csv")
     outputs = [tmp_path / "figures" / f"{figure}.{kind}" for kind in ("pdf", "png")]
     main = runpy.run_path(str(SCRIPT))["main"]
     main(figure=figure, table=str(tmp_path / "table.csv"), outputs=[str(path) for path in outputs])
@@ -33,6 +34,6 @@ def test_figure_is_drawn_from_its_csv_file(
 
 def test_absent_table_is_named(tmp_path: Path) -> None:
     main = runpy.run_path(str(SCRIPT))["main"]
-    with pytest.raises(BrokenResult, match=r"absent\.csv is no readable table"):
+    with pytest.raises(BrokenResult, match=r"absent\.csv is missing: run again, which makes it$"):
         main(figure="pareto", table=str(tmp_path / "absent.csv"), outputs=[str(tmp_path / "figure.pdf")])
     assert not list(tmp_path.iterdir())

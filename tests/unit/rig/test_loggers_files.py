@@ -408,8 +408,10 @@ def test_refusal_says_what_to_do_and_that_helps(kind: str, reduce: Reducer) -> N
 
 def test_slip_in_the_area_is_noticed(reduce: Reducer) -> None:
     text = f"{TIDY}\n{rows()}"
-    with pytest.raises(InvalidInput, match=r"area of 0.0001 mm² make 5e\+05 MPa, .* \(0.0001 m² would be 100 mm²\)$"):
+    with pytest.raises(InvalidInput, match=r"^area is 0.0001 mm², .* it is probably in m², 100 mm²$"):
         reduce(text, area=1e-4)
+    with pytest.raises(InvalidInput, match=r"area of 0.2 mm² make 250 MPa, .* \(0.2 m² would be 200000 mm²\)$"):
+        reduce(text, area=0.2)
     for area in (1.0, 1e7):
         assert any("far from usual pressures" in note for note in reduce(text, area=area).notes)
     assert not any("far from usual" in note for note in reduce(text).notes)
