@@ -5,7 +5,7 @@ import sys
 
 from snakemake.utils import min_version
 
-from rubfric.files import check_folder, check_place
+from rubfric.files import check_folder, check_place, remove_parts
 from rubfric.config.campaign import Campaign
 from rubfric.config.overlay import read_yaml
 from rubfric.errors import BrokenResult, InvalidInput, NotWritten
@@ -85,6 +85,7 @@ if workflow.is_main_process:
 onstart:
     jobs.warm_up()
     check_folder(RESULTS)
+    remove_parts(RESULTS)
     RUN_LOG.begin()
 
 

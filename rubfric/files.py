@@ -1,10 +1,14 @@
-"""Files that appear whole or not at all, and why one could not be written."""
+"""Files that appear whole or not at all, what killed runs leave of them, and why one could not be written."""
 
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
+import platform
+import re
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -26,6 +30,12 @@ _REASONS = {
     errno.EISDIR: "a folder stands where a file belongs: move it away, or choose another place, then run again",
     errno.EIO: "the disk failed: check it, then run again",
 }
+# Which machine a process is of, for the names of files that are being written; where it is another one, a file that has
+# not grown for so many seconds is one of a killed run.
+_HOST = hashlib.sha256(platform.node().encode()).hexdigest()[:6]
+_PART = re.compile(r"\..+?(?:\.(?P<host>[0-9a-f]{6}))?\.(?P<process>\d+)\.part")
+_STALE = 86400.0
+_MARK = re.compile(r"[0-9a-f]{16}")
 
 
 @contextmanager
@@ -41,7 +51,7 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         Where the system does not let the file be written: what is the matter, and what to do about it.
     """
     target = Path(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    part = target.with_name(f".{target.name}.{_HOST}.{os.getpid()}.part")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         yield part
@@ -52,6 +62,38 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+def remove_parts(folder: str | os.PathLike[str]) -> None:
+    """Remove what killed runs have left of files, anywhere in a folder; what a process still writes stays."""
+    for place, _, names in os.walk(folder):
+        for name in names:
+            found = _PART.fullmatch(name)
+            if found and _is_left(Path(place, name), found["host"], int(found["process"])):
+                with suppress(OSError):
+                    Path(place, name).unlink()
+
+
+def _is_left(part: Path, host: str | None, process: int) -> bool:
+    """Return whether the process that wrote a file is gone."""
+    try:
+        if host != _HOST:
+            return time.time() - part.lstat().st_mtime > _STALE
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    except (OSError, OverflowError):
+        return False
+    return False
+
+
+def mark(path: str | os.PathLike[str]) -> None:
+    """Make an empty file whose name, 16 hexadecimal digits, stands for what was made; such files beside it go."""
+    kept = Path(path)
+    for other in kept.parent.iterdir():
+        if other != kept and _MARK.fullmatch(other.name) and other.is_file() and not other.stat().st_size:
+            other.unlink()
+    kept.touch()
 
 
 def why_not(path: str | os.PathLike[str], error: OSError) -> OSError:

@@ -31,6 +31,8 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         tree = loader.get_single_node()
         twice = _key_given_twice(tree)
         held = None if tree is None or twice else loader.construct_document(tree)
+    except RecursionError as error:
+        raise InvalidInput(f"{os.fspath(path)} is not valid YAML: lists or mappings are nested too deeply") from error
     except (*_NO_YAML, IsADirectoryError) as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if twice:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -12,7 +13,9 @@ import numpy as np
 import xarray as xr
 
 from rubfric import __version__
+from rubfric.checksums import AGAIN, check_seal, fingerprint
 from rubfric.errors import BrokenResult
+from rubfric.mechanics.steady.energies import disagreement
 from rubfric.results.dataset import load
 from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
 from rubfric.results.scalars import SCALARS, attributes
@@ -27,16 +30,20 @@ AXES: dict[str, tuple[str, str]] = {
 # Of all scales at once, which are scale 0, the smallest of each.
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
 _WARNINGS = "warnings"
+_ROUTES = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
+# The attribute of a collection that stands for the scenes that it was collected from.
+COLLECTED = "scene_digests"
 
 
 class _Found(NamedTuple):
-    """The coordinates of a result, its scalars, what it shares with its campaign, its road, and why it was refused."""
+    """The coordinates of a result, its scalars, what it shares with its campaign, its road, any refusal, its digest."""
 
     point: tuple[float, ...]
     values: dict[str, float]
     shared: dict[str, str]
     road: dict[str, float]
     refusal: str
+    digest: str
 
 
 def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | None = None) -> xr.Dataset:
@@ -82,17 +89,25 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     return _assemble(found, road)
 
 
-def read(path: str | os.PathLike[str]) -> xr.Dataset:
+def read(path: str | os.PathLike[str], scenes: str | None = None) -> xr.Dataset:
     """Read a campaign from the file that holds it, completely into memory.
+
+    Parameters
+    ----------
+    path : path-like
+    scenes : str, optional
+        ``fingerprint`` of the sorted digests of the scenes that it must have been collected from.
 
     Raises
     ------
     BrokenResult
-        For a file that is missing, damaged, or no collection of results.
+        For a file that is missing, damaged, no collection of results, or one of other scenes.
     """
     campaign = load(path)
     if not {"friction_coefficient", *AXES} <= set(campaign.variables):
-        raise BrokenResult(f"{os.fspath(path)} is no collection of results; delete it and run again")
+        raise BrokenResult(f"{os.fspath(path)} is no collection of results; {AGAIN}")
+    if scenes not in (None, campaign.attrs.get(COLLECTED)):
+        raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; {AGAIN}")
     return campaign
 
 
@@ -103,10 +118,10 @@ def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
         try:
             found.append(_read_scalars(path, digest))
         except BrokenResult as error:
-            wrong.append((path, str(error)))
+            wrong.append((path, str(error).removesuffix(f"; {AGAIN}")))
     if wrong:
         paths = [path for path, _ in wrong]
-        again = "delete it and run again"
+        again = AGAIN
         if len(paths) > 1:
             again = f"{len(paths) - 1} more cannot be used either; delete them all and run again: rm {' '.join(paths)}"
         raise BrokenResult(f"{wrong[0][1]}; {again}")
@@ -114,6 +129,7 @@ def _read_all(files: list[str], digests: Iterable[str | None]) -> list[_Found]:
 
 
 def _read_scalars(path: str, digest: str | None) -> _Found:
+    check_seal(path)
     try:
         with netCDF4.Dataset(path) as stored:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
@@ -126,12 +142,31 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
             road = {name: float(np.min(stored.getncattr(name))) for name in _ROAD}
-            other = digest is not None and stored.getncattr("scene_digest") != digest
+            own = str(stored.getncattr("scene_digest"))
     except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
         raise BrokenResult(f"{path} is no readable result: {error}") from error
-    if other:
+    if digest not in (None, own):
         raise BrokenResult(f"{path} {OTHER_SCENE}")
-    return _Found(point, values, common, road, refused)
+    if not refused:
+        _check_bounds(path, values)
+    return _Found(point, values, common, road, refused, own)
+
+
+def _check_bounds(path: str, values: dict[str, float]) -> None:
+    """Raise BrokenResult where scalars are not finite, outside what is possible, or contradict one another."""
+    routes = tuple(values[name] for name in _ROUTES)
+    friction, error, closure = routes[0], values["friction_coefficient_error"], values["energy_closure"]
+    differ = disagreement(routes, values["friction_resolution"])
+    bounds = {
+        "a number that is not finite": not all(map(math.isfinite, values.values())),
+        "a friction below zero by more than its error": friction < -error,
+        "a negative error": error < 0.0,
+        "a contact fraction outside 0 to 1": not 0.0 < values["contact_fraction"] <= 1.0,
+        "a negative pressure": min(values["maximum_contact_pressure"], values["maximum_local_contact_pressure"]) < 0.0,
+        "routes to friction that do not differ by its energy_closure": abs(differ - closure) > 1e-9 * max(differ, 1.0),
+    }
+    if broken := [what for what, is_so in bounds.items() if is_so]:
+        raise BrokenResult(f"{path} has {', '.join(broken)}, which no result has")
 
 
 def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Dataset:
@@ -160,4 +195,5 @@ def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Da
     }
     refused = sorted((one.point, one.refusal) for one in found if one.refusal)
     kept = {REFUSALS: json.dumps(refused)} if refused else {}
+    kept[COLLECTED] = fingerprint(sorted(one.digest for one in found))
     return xr.Dataset(variables, coords=coordinates, attrs=described | found[0].shared | kept)

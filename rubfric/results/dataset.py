@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from rubfric.arrays import Real
+from rubfric.checksums import AGAIN, PLACEHOLDER, check_seal, seal
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
@@ -18,6 +19,9 @@ from rubfric.results.provenance import OTHER_SCENE, about
 from rubfric.results.scalars import SCALARS, attributes, scalars
 from rubfric.results.selection import REFUSAL
 from rubfric.results.warnings import below_noise_warning, warnings
+
+# The variable that holds the checksum of a file.
+_CHECKSUM = "checksum"
 
 
 def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.Dataset:
@@ -164,7 +168,7 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
     """Write a dataset to a netCDF file, whole or not at all.
 
     The file appears under its name only when it is complete; an interrupted run leaves at most a file whose
-    name begins with a dot.
+    name begins with a dot. It carries its checksum, which every reader checks (``rubfric.checksums``).
 
     Parameters
     ----------
@@ -177,15 +181,18 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
     NotWritten
         Where the disk is full or the place is not writable; the message says what to do.
     """
+    result = result.assign({_CHECKSUM: ((), np.bytes_(PLACEHOLDER), attributes("1", "checksum of this file"))})
     # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.
-    encoding = {
+    encoding: dict[str, dict[str, Any]] = {
         str(name): {"zlib": variable.size > 1, "complevel": 1}
         | ({} if variable.dtype.kind == "f" and np.isnan(variable.values).any() else {"_FillValue": None})
         for name, variable in result.variables.items()
     }
+    encoding[_CHECKSUM]["char_dim_name"] = "checksum_length"
     with whole(path) as part:
         try:
             result.to_netcdf(part, engine="netcdf4", encoding=encoding)
+            seal(part)
         except (OSError, RuntimeError):
             _reserve(part, 2 * result.nbytes)  # netCDF does not give the reason, the system does
             raise
@@ -219,16 +226,17 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
     if "scene_digest" not in result.attrs:
         raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
     if digest not in (None, result.attrs["scene_digest"]):
-        raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; delete it and run again")
+        raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; {AGAIN}")
     if REFUSAL in result.attrs:
         raise BrokenResult(f"{os.fspath(path)} holds no friction, since the scene was refused: {result.attrs[REFUSAL]}")
     return result
 
 
 def load(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Read any netCDF file completely into memory; BrokenResult where it cannot be read."""
+    """Read a netCDF file of rubfric completely into memory; BrokenResult where it cannot be read or was changed."""
+    check_seal(path)
     try:
         with xr.open_dataset(path, engine="netcdf4") as stored:
-            return stored.load()
+            return stored.drop_vars(_CHECKSUM, errors="ignore").load()
     except (OSError, ValueError, RuntimeError, AttributeError, KeyError) as error:
-        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; delete it and run again") from error
+        raise BrokenResult(f"{os.fspath(path)} cannot be read: {error}; {AGAIN}") from error

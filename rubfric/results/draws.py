@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from rubfric.checksums import fingerprint
+from rubfric.results.campaign import COLLECTED
 from rubfric.results.scalars import attributes
 from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, refusals
 
@@ -41,6 +43,7 @@ def over_draws(collected: Sequence[xr.Dataset]) -> xr.Dataset:
     found[DRAWS] = number.assign_attrs(attributes("1", "roads of random phases that were solved"))
     reasons = {point: reason for one in reversed(collected) for point, reason in refusals(one).items()}
     found.attrs = {name: value for name, value in collected[0].attrs.items() if name != REFUSALS}
+    found.attrs[COLLECTED] = fingerprint(one.attrs.get(COLLECTED, "") for one in collected)
     if reasons:
         found.attrs[REFUSALS] = json.dumps(sorted(reasons.items()))
     return found

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import pandas as pd
 import xarray as xr
 
+from rubfric.checksums import AGAIN, check_signature, sign
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.selection import check_variables
@@ -33,6 +34,8 @@ _COLUMNS = {
     "contact_nodes": "contact_nodes",
     "warnings": "warnings",
 }
+# What a text may begin with that a spreadsheet would take for a formula, unless an apostrophe comes before it.
+_FORMULA, _AS_TEXT = r"^(?=[=+\-@\t\r])(?![+-]?[\d.]+(?:[eE][+-]?\d+)?$)", r"^'(?=[=+\-@\t\r])"
 _WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes", "warnings")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
@@ -59,7 +62,7 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
 
 
-def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFrame:
+def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool = True) -> pd.DataFrame:
     """Return a table from a CSV file; empty fields and nan are missing values.
 
     Parameters
@@ -67,21 +70,33 @@ def read_table(path: str | os.PathLike[str], words: Sequence[str]) -> pd.DataFra
     path : path-like
     words : sequence of str
         Columns to read as text, where the table has them: ``0.10`` stays ``0.10``, ``off`` a word.
+    signed : bool
+        Whether a table without its checksum is refused, as every table of a campaign.
 
     Raises
     ------
     BrokenResult
-        For a file that is no CSV table.
+        For a file that is no CSV table, or that was changed after it was written.
     """
+    check_signature(path, signed)
     try:
-        return pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
+        table = pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
     except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
         reason = " ".join(str(error).split())
-        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; delete it and run again") from error
+        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; {AGAIN}") from error
+    return _replaced(table, _AS_TEXT, "")
+
+
+def _replaced(table: pd.DataFrame, pattern: str, by: str) -> pd.DataFrame:
+    """Return a table with a pattern replaced in all its texts."""
+    texts = table.select_dtypes(include=["object", "string"]).columns
+    return table.assign(**{name: table[name].replace(pattern, by, regex=True) for name in texts})
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
-    """Write a table as CSV with six significant digits, whole or not at all.
+    """Write a table as CSV with six significant digits, whole or not at all, and its checksum beside it.
+
+    A text that a spreadsheet would take for a formula has an apostrophe before it, which ``read_table`` takes away.
 
     Parameters
     ----------
@@ -95,4 +110,5 @@ def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
         Where the disk is full or the place is not writable.
     """
     with whole(path) as part:
-        table.to_csv(part, index=False, float_format="%.6g")
+        _replaced(table, _FORMULA, "'").to_csv(part, index=False, float_format="%.6g")
+    sign(path)

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from rubfric.mechanics.steady.error import friction_error
-from rubfric.mechanics.steady.resolution import MOST_CELLS
+from rubfric.mechanics.steady.error import allowance, friction_error
+from rubfric.mechanics.steady.refinement import LEAST_WORTH
+from rubfric.mechanics.steady.resolution import (
+    MOST_CELLS,
+    MOST_FINITE,
+    MOST_SMALL_CELLS,
+    Resolution,
+    most_columns,
+)
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.layer import excitation_frequency
 
@@ -15,6 +22,8 @@ _SPEED_LIMIT = 0.3
 _FOLD_LIMIT = 0.1
 # Largest difference of the three friction coefficients, unless a lower accuracy was asked for.
 _CLOSURE_LIMIT = 0.01
+# Cells higher than wide by more than this at the road make the error so many times larger.
+_SQUARE = 1.01
 
 
 def warnings(solution: SteadySolution, closure: float) -> list[str]:
@@ -62,18 +71,26 @@ def _inaccurate(solution: SteadySolution) -> list[str]:
     if error <= solution.scene.numerics.accuracy * friction or friction <= solution.friction.resolution:
         return []
     return [
-        f"The accuracy asked for, {solution.scene.numerics.accuracy:.2%}, is not met: the estimated error is "
-        f"{error / friction:.2%} after {len(solution.meshes)} meshes; {_remedy(solution)}."
+        f"The accuracy asked for, {100.0 * solution.scene.numerics.accuracy:.2g} %, is not met: the estimated error is "
+        f"{100.0 * error / friction:.2g} % after {len(solution.meshes)} meshes; {_remedy(solution)}."
     ]
 
 
 def _remedy(solution: SteadySolution) -> str:
-    """Return what would make a scene more accurate."""
-    if len(solution.meshes) > solution.scene.numerics.refinements + 1:
-        return "raise numerics.refinements"
-    if solution.decision.kinematics == "finite":
-        return f"finite strain takes no mesh of more than {MOST_CELLS} cells"
-    return "raise numerics.refinements or numerics.columns_max"
+    """Return what would make a scene more accurate, by what has ended its refinement."""
+    scene, mesh, finite = solution.scene, solution.meshes[-1], solution.decision.kinematics == "finite"
+    if mesh.first_row > _SQUARE:
+        return "lower numerics.first_row"
+    if allowance(solution) <= 0.0:
+        return "lower numerics.folding"
+    if mesh.columns >= most_columns(scene, finite):
+        if mesh.columns < scene.numerics.columns_max:
+            return f"finite strain takes no mesh of more than {MOST_FINITE} columns"
+        return "raise numerics.columns_max"
+    if not Resolution(mesh.columns, mesh.growth).finer(scene, LEAST_WORTH, finite).affordable(scene, finite):
+        most = MOST_CELLS if finite else MOST_SMALL_CELLS
+        return f"{solution.decision.kinematics} strain takes no mesh of more than {most:,} cells"
+    return "raise numerics.refinements"
 
 
 def below_noise_warning(friction: float, resolution: float) -> list[str]:

@@ -20,6 +20,7 @@ run.csv holds time, normal force, traction and displacement, with units in the h
   columns: {time: Zeit, normal: Fz, traction: Fx, displacement: Weg}   # where they are not recognised
   units: {time: s, normal: kN, traction: N, displacement: mm}          # where the headings do not say
   area: 100                  # nominal area of the rubber, mm²
+  normal: 50                 # N, where the load is a known weight and no column
   traction: rope             # sensor in the rope instead of at the rubber; then also
   sled_mass: 5               # kg
   bearing: {force: 0.5, coefficient: 0.005}   # N, and per normal force; or {file: unloaded.csv}
@@ -81,6 +82,9 @@ def _add_reduce(own: Any) -> None:
         choices=TRACTIONS,
         help="where the sensor of traction sits (instead of the YAML's; default: rubber)",
     )
+    reduce.add_argument(
+        "--normal", type=float, metavar="F", help="known constant normal force, N (instead of the YAML's)"
+    )
     reduce.add_argument("--sled-mass", type=float, metavar="M", help="mass of the sled, kg (instead of the YAML's)")
     reduce.add_argument("--output", "-o", type=Path, metavar="FILE", help="write the points to this CSV file")
     reduce.add_argument("--rejected", type=Path, metavar="FILE", help="write the rejected windows to this CSV file")
@@ -127,6 +131,7 @@ def _reduce(options: argparse.Namespace) -> int:
     from rubfric.rig.summary import summary
 
     above = {"area": options.area, "traction": options.traction, "sled_mass": options.sled_mass}
+    above["normal"] = options.normal
     runs = reduce_files(options.files, read_settings(options.columns, **above))
     print(summary(runs))
     for path, table in ((options.output, point_table), (options.rejected, rejected_table)):
@@ -151,7 +156,7 @@ def _simulate(options: argparse.Namespace) -> int:
     if not needed.is_file():
         raise FileNotFoundError(f"there is no {needed}: run snakemake first, or give --campaign FILE")
     if options.scale is None:
-        friction = FrictionMap.from_totals(read_table(totals, WORDS))
+        friction = FrictionMap.from_totals(read_table(totals, WORDS, signed=False))
     else:
         friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
     print(simulate(friction, virtual, options.pressure, options.weight, options.speed, options.output))

@@ -10,6 +10,8 @@ from rubfric.arrays import Flags, Real
 _PILE, _ROW = 8, 4
 # A pile has more readings than this number of neighbouring levels together; noise has few readings at its extremes.
 _LEVELS = 3
+# A force with no more values than these is no sensor's: a known load, and none.
+_NOMINAL = 2
 
 
 def clipped(readings: Real, limit: float | None = None) -> Flags:
@@ -17,7 +19,7 @@ def clipped(readings: Real, limit: float | None = None) -> Flags:
 
     Where the limit of the sensor is known, those at it or beyond. Otherwise those at the largest or the smallest
     reading, where that is far more frequent than the readings next to it: such a sensor is clipped, or too coarse to
-    resolve the force.
+    resolve the force. A force of one or two values is not measured but known.
 
     Parameters
     ----------
@@ -30,6 +32,8 @@ def clipped(readings: Real, limit: float | None = None) -> Flags:
         return np.asarray(np.abs(readings) >= limit * (1.0 - 1e-9))
     found = np.zeros(readings.size, dtype=bool)
     levels, counts = np.unique(readings, return_counts=True)
+    if levels.size <= _NOMINAL:
+        return found
     for extreme, count, beside in (
         (levels[0], counts[0], counts[1 : 1 + _LEVELS]),
         (levels[-1], counts[-1], counts[-1 - _LEVELS : -1]),

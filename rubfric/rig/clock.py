@@ -18,6 +18,7 @@ _CLOCK = re.compile(
     r"(?P<hours>\d{1,3}):(?P<minutes>[0-5]\d):(?P<seconds>[0-5]\d(?:[.,]\d*)?)"
     r"(?:\s*(?P<noon>[AaPp])\.?[Mm]\.?)?(?P<zone>Z|[+-]\d\d:?\d\d)?$"
 )
+_DATE = re.compile(r"^\d{1,2}([./-])\d{1,2}\1\d{2,4},?\s+")
 _COLON = re.compile(r"\d:\d\d")
 
 
@@ -36,8 +37,8 @@ def clock_times(where: str, words: Sequence[str]) -> Real:
     where : str
         The file and column, for messages.
     words : sequence of str
-        ``hh:mm:ss``, with a point or a comma before fractions, with AM or PM, or after a date ``yyyy-mm-dd``; what is
-        no such time is a missing value.
+        ``hh:mm:ss``, with a point or a comma before fractions, with AM or PM, or after a date ``yyyy-mm-dd``, or any
+        date that all share; what is no such time is a missing value.
 
     Returns
     -------
@@ -49,11 +50,14 @@ def clock_times(where: str, words: Sequence[str]) -> Real:
     InvalidInput
         For times that may be read in two ways, and where only some have a date.
     """
+    # A date that all times share need not be understood.
+    dates = {one[0] if (one := _DATE.match(word.strip())) else "" for word in words if looks_like_clock(word)}
+    words = [_DATE.sub("", word.strip()) for word in words] if len(dates) == 1 else words
     found = [_CLOCK.match(word.strip()) for word in words]
     for word, one in zip(words, found, strict=True):
         if one is None and looks_like_clock(word):
             raise InvalidInput(
-                f"{where} holds the time {word.strip()[:40]!r}, which may be read in more than one way: export times "
+                f"{where} holds the time {word.strip()[:40]!r}, which cannot be read without a guess: export times "
                 "as seconds, as hh:mm:ss, or as yyyy-mm-dd hh:mm:ss"
             )
     dated = {one["year"] is not None for one in found if one}

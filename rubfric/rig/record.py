@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,9 +10,10 @@ from scipy.ndimage import median_filter
 
 from rubfric.arrays import Flags, Real
 from rubfric.errors import InvalidInput
-from rubfric.rig.headings import recognise
+from rubfric.rig.headings import recognise, unused_loads
+from rubfric.rig.names import expected
 from rubfric.rig.settings import Settings
-from rubfric.rig.textfile import read_text
+from rubfric.rig.textfile import read_text, readable
 from rubfric.rig.units import QUANTITIES
 
 MEASURED, SIMULATED = "measured", "simulated"
@@ -84,11 +86,23 @@ def read_record(path: str, settings: Settings) -> Record:
     FileNotFoundError
         For a missing file.
     """
-    table = read_text(path, settings.separator, settings.decimal)
-    columns = recognise(path, table.headings, table.units, settings.columns, settings.units, table.clocks)
-    values = np.stack([table.values[:, columns[name].place] * columns[name].factor for name in QUANTITIES])
+    table = read_text(path, settings.form, expected(settings.columns))
+    known: dict[str, Real] = {"normal": np.full(len(table.values), settings.normal)} if settings.normal > 0.0 else {}
+    known |= {"time": np.arange(len(table.values)) / settings.sampling} if settings.sampling > 0.0 else {}
+    wanted = [name for name in QUANTITIES if name not in known]
+    try:
+        columns = recognise(path, table, settings.columns, settings.units, wanted)
+        good, left_out = readable(path, table, [column.place for column in columns.values()])
+    except InvalidInput as error:
+        guesses = [note for note in table.notes if "guessed" in note]
+        raise InvalidInput(" - ".join([str(error), *guesses])) from error
+    notes = [*table.notes, *left_out, *(note for column in columns.values() for note in column.notes)]
+    if "normal" in known:
+        notes += [f"the column {name!r} is not used: normal gives the load" for name in unused_loads(table, columns)]
+    known |= {name: table.values[:, column.place] * column.factor for name, column in columns.items()}
+    values = np.stack([known[name] for name in QUANTITIES])
     source = SIMULATED if any(SIMULATED_MARK in line for line in table.preamble) else MEASURED
-    return ordered(path, source, values, table.notes)
+    return ordered(path, source, values[:, good], tuple(notes))
 
 
 def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -> Record:
@@ -111,13 +125,15 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
     lost = int(np.count_nonzero(~whole))
     if lost > _MOST_MISSING * whole.size:
+        worst = QUANTITIES[int(np.argmax(np.isnan(values).sum(axis=1)))]
         raise InvalidInput(
-            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %"
+            f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %, most often "
+            f"of {worst}: export all columns at the same times"
         )
     if lost:
         done.append(f"{lost} rows that lack a value left out")
     values = _in_order(name, values[:, whole], done)
-    _check_length(name, values)
+    _check_length(name, values, done)
     overloaded = np.asarray(~np.isfinite(values[1:3]).all(axis=0))
     values = np.where(np.isfinite(values), values, 0.0)
     spiky = _spikes(values, overloaded)
@@ -134,9 +150,16 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     return record.noted(*done)
 
 
-def _check_length(name: str, values: Real) -> None:
-    if values.shape[1] < FEWEST_SAMPLES:
-        raise InvalidInput(f"{name} has {values.shape[1]} usable rows, but must have at least {FEWEST_SAMPLES}")
+def _check_length(name: str, values: Real, done: Sequence[str]) -> None:
+    if values.shape[1] >= FEWEST_SAMPLES:
+        return
+    why = f" ({'; '.join(done)})" if done else ""
+    if any("share" in note for note in done):
+        why += (
+            ": export times with fractions of a second, or write sampling: and the number of rows per second in the "
+            "YAML file of --columns"
+        )
+    raise InvalidInput(f"{name} has {values.shape[1]} usable rows, but must have at least {FEWEST_SAMPLES}{why}")
 
 
 def _in_order(name: str, values: Real, done: list[str]) -> Real:
@@ -153,7 +176,7 @@ def _in_order(name: str, values: Real, done: list[str]) -> Real:
         values = values[:, np.argsort(time, kind="stable")]
     stamps, place, count = np.unique(values[0], return_inverse=True, return_counts=True)
     if stamps.size < values.shape[1]:
-        done.append(f"{values.shape[1] - stamps.size} repeated time stamps: means taken")
+        done.append(f"{values.shape[1]} rows share {stamps.size} time stamps: means taken")
         finite = np.isfinite(values)
         sums = np.stack(
             [np.bincount(place, np.where(known, row, 0.0)) for row, known in zip(values, finite, strict=True)]

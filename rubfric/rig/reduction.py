@@ -43,6 +43,8 @@ REJECTED_COLUMNS = {
     "pressure": "pressure_MPa",
     "reason": "reason",
 }
+# Pressures, MPa, between which rubber is usually pressed onto a road, and above which none is.
+_LOWEST, _HIGHEST, _UNBEARABLE = 1e-4, 20.0, 200.0
 # Part of the traction in sliding by which its zero may move.
 _LARGEST_DRIFT = 0.5
 
@@ -112,6 +114,7 @@ def reduce_record(record: Record, settings: Settings, drag: Drag) -> Reduced:
     pieces = cells(record, settings.windows.least_travel)
     windows = find_windows(record, pieces, settings.windows)
     loaded, notes = _loaded(record, settings, zero, windows)
+    notes += _check_area(record, settings.area, loaded.plateau)
     found = [evaluate(loaded, window, settings, drag) for window in windows]
     points = tuple(one for one in found if isinstance(one, Point))
     rejected = tuple(one for one in found if isinstance(one, Rejected))
@@ -136,6 +139,11 @@ def _loaded(record: Record, settings: Settings, zero: Zero, windows: Sequence[Wi
         _check_zero(record, zero, sliding, settings.traction == "rope")
     levels = normal[sliding] if sliding.any() else normal
     plateau = float(np.percentile(np.abs(levels), 75.0)) * (1.0 if np.median(levels) >= 0.0 else -1.0)
+    if plateau == 0.0:
+        raise InvalidInput(
+            f"{record.name} has no normal force in sliding: {np.median(record.normal):.4g} N, of which the tare takes "
+            "all; a known constant load is given as normal: and the force in N in the YAML file of --columns"
+        )
     if plateau < 0.0:
         normal, plateau = -normal, -plateau
         notes.append("sign of the normal force turned: it is negative under load")
@@ -168,6 +176,18 @@ def _check_zero(record: Record, zero: Zero, sliding: Flags, rope: bool) -> None:
         )
 
 
+def _check_area(record: Record, area: float, plateau: float) -> list[str]:
+    """Return a note on a pressure that is far from any rubber's; raise InvalidInput where none bears it."""
+    pressure = plateau / area
+    metres = f" ({area:g} m² would be {1e6 * area:g} mm²)" if area < 1.0 else ""
+    what = f"{plateau:.4g} N on an area of {area:g} mm² make {pressure:.3g} MPa"
+    if pressure > _UNBEARABLE:
+        raise InvalidInput(f"{record.name}: {what}, more than any rubber bears: give area in mm²{metres}")
+    if not _LOWEST <= pressure <= _HIGHEST:
+        return [f"{what}, far from usual pressures of rubber on a road: is area in mm²{metres}, and the load in N?"]
+    return []
+
+
 def _no_window(record: Record, settings: Settings) -> Rejected:
     travel = float(np.ptp(record.displacement))
     least = settings.windows.least_travel
@@ -190,7 +210,11 @@ def _about_bearings(settings: Settings, drag: Drag) -> tuple[str, ...]:
 def point_table(runs: Sequence[Reduced]) -> pd.DataFrame:
     """Return the points of some runs, one row each, units in the headings."""
     rows = [
-        {"run": run.name, **{heading: getattr(point, name) for name, heading in COLUMNS.items()}, "source": run.source}
+        {
+            "run": run.name,
+            **{heading: getattr(point, name) for name, heading in COLUMNS.items()},
+            "source": run.source,
+        }
         for run in runs
         for point in run.points
     ]

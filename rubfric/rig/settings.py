@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from rubfric import checks
 from rubfric.config.models import VirtualRig
 from rubfric.config.overlay import read_yaml
 from rubfric.errors import InvalidInput
-from rubfric.rig.textfile import DECIMALS, SEPARATORS
+from rubfric.rig.format import AS_FOUND, FORMAT, Format
 from rubfric.rig.units import QUANTITIES, check_factor
 from rubfric.rules import Choice, Integer, Number, rules
 
@@ -31,7 +32,7 @@ class Tare:
     start, end : float
         The given times, s.
     normal, traction : float
-        The given readings, N.
+        The given readings, N; NaN where there is no sensor of the normal force.
     """
 
     how: str = "auto"
@@ -96,7 +97,12 @@ class Settings:
     Attributes
     ----------
     columns, units : mapping
-        Quantity (time, normal, traction, displacement) to heading and to unit, where they are not recognised.
+        Quantity (time, normal, traction, displacement) to heading (or number, from 1) and to unit, where they are not
+        recognised.
+    normal : float
+        A known constant load, N, which no sensor measures; 0 for none.
+    sampling : float
+        Rows per second, Hz, of a file without times; 0 for none.
     area : float
         Nominal area of the rubber, mm²; 0 where it is not given.
     traction : {"rubber", "rope"}
@@ -110,13 +116,15 @@ class Settings:
     calibration : mapping
         Force, or displacement, to the uncertainty of its sensor's gain, relative, 95 %.
     windows : Windows
-    separator, decimal : str, optional
-        As in ``rubfric.rig.textfile.read_text``.
+    form : Format
+        How files are written, where that is not found out.
     """
 
-    columns: Mapping[str, str] = field(default_factory=dict)
+    columns: Mapping[str, str | int] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     area: float = 0.0
+    normal: float = 0.0
+    sampling: float = 0.0
     traction: str = "rubber"
     sled_mass: float = 0.0
     tare: Tare = Tare()
@@ -124,14 +132,20 @@ class Settings:
     range: Mapping[str, float] = field(default_factory=dict)
     calibration: Mapping[str, float] = field(default_factory=dict)
     windows: Windows = Windows()
-    separator: str | None = None
-    decimal: str | None = None
+    form: Format = AS_FOUND
 
     def __post_init__(self) -> None:
         if self.traction == "rope" and self.sled_mass <= 0.0:
             raise InvalidInput(
                 "traction is rope, so sled_mass must be given (kg): the rope also accelerates the sled with the road"
             )
+        for quantity, key, value in (("normal", "normal", self.normal), ("time", "sampling", self.sampling)):
+            if value > 0.0 and quantity in self.columns:
+                raise InvalidInput(
+                    f"{key} is given, and columns.{quantity} names a column for the same: keep one of them"
+                )
+        if math.isnan(self.tare.normal) and self.normal <= 0.0:
+            raise InvalidInput("tare holds traction alone, but must hold normal (N) too where the load is measured")
 
 
 def read_settings(path: str | None, **above: Any) -> Settings:
@@ -154,22 +168,27 @@ def read_settings(path: str | None, **above: Any) -> Settings:
     entry: Any = {}
     if path is not None:
         entry = read_yaml(path) or {}
-    names = [one.name for one in fields(Settings)]
+    names = [*(one.name for one in fields(Settings) if one.name != "form"), *FORMAT]
     where = path or "the settings of the rig"
     checks.known_keys(where, entry, names)
     given = dict(entry) | {name: value for name, value in above.items() if value is not None}
-    settings = Settings(**{name: _READERS[name](name, value) for name, value in given.items()})
+    checked = {name: (_READERS | FORMAT)[name](name, value) for name, value in given.items()}
+    form = Format(**{name: checked.pop(name) for name in FORMAT if name in checked})
+    settings = Settings(**checked, form=form)
     if settings.bearing.file and path is not None:
         found = Path(path).parent / settings.bearing.file
         settings = replace(settings, bearing=replace(settings.bearing, file=str(found)))
     return settings
 
 
-def _headings(key: str, value: Any) -> dict[str, str]:
+def _columns(key: str, value: Any) -> dict[str, str | int]:
     checks.known_keys(key, value, QUANTITIES)
     for name, heading in value.items():
-        if not isinstance(heading, str) or not heading.strip():
-            raise InvalidInput(f"{key}.{name} is {checks.shown(heading)}, but must be the heading of a column")
+        named = isinstance(heading, str) and heading.strip()
+        if not named and (not isinstance(heading, int) or isinstance(heading, bool) or heading < 1):
+            raise InvalidInput(
+                f"{key}.{name} is {checks.shown(heading)}, but must be the heading of a column, or its number from 1 on"
+            )
     return dict(value)
 
 
@@ -189,9 +208,9 @@ def _tare(key: str, value: Any) -> Tare:
         if end <= start:
             raise InvalidInput(f"{key}.to is {end:g} s, but must be later than {key}.from, {start:g} s")
         return Tare("times", start=start, end=end)
-    if set(value) == set(_FORCES):
-        normal, traction = (checks.number(f"{key}.{name}", value[name]) for name in _FORCES)
-        return Tare("given", normal=normal, traction=traction)
+    if "traction" in value and set(value) <= set(_FORCES):
+        readings = {name: checks.number(f"{key}.{name}", number) for name, number in value.items()}
+        return Tare("given", **({"normal": math.nan} | readings))
     raise InvalidInput(f"{key} is {checks.shown(value)}, but must hold from and to (s), or normal and traction (N)")
 
 
@@ -224,9 +243,11 @@ def _windows(key: str, value: Any) -> Windows:
 
 
 _READERS: dict[str, Any] = {
-    "columns": _headings,
+    "columns": _columns,
     "units": _units,
     "area": rules(VirtualRig)["area"].check,
+    "normal": Number(unit="N").check,
+    "sampling": Number(unit="Hz").check,
     "traction": rules(VirtualRig)["traction"].check,
     "sled_mass": rules(VirtualRig)["sled_mass"].check,
     "tare": _tare,
@@ -234,6 +255,4 @@ _READERS: dict[str, Any] = {
     "range": _forces,
     "calibration": _gains,
     "windows": _windows,
-    "separator": Choice(words=SEPARATORS).check,
-    "decimal": Choice(words=DECIMALS).check,
 }

@@ -54,7 +54,7 @@ def find_zero(record: Record, tare: Tare, loading: str = "normal") -> Zero:
     record : Record
     tare : Tare
         ``auto`` takes the means over the stretch before the load, and where there is one after it too, the straight
-        line between both.
+        line between both. A constant normal force is a known load: it has no zero, and traction rises from its own.
     loading : {"normal", "traction"}
         The force by which the unloaded stretches are found.
 
@@ -64,10 +64,11 @@ def find_zero(record: Record, tare: Tare, loading: str = "normal") -> Zero:
         Where there is no unloaded stretch, or too short a one.
     """
     nothing = np.zeros(record.time.size)
+    held = bool(np.ptp(record.normal) == 0.0)
     if tare.how == "none":
         return Zero(nothing, nothing, nothing, nothing, 1.0, ("not tared, as asked for",))
     if tare.how == "given":
-        return Zero(nothing + tare.normal, nothing + tare.traction, nothing, nothing, 1.0, ())
+        return Zero(nothing + np.nan_to_num(tare.normal), nothing + tare.traction, nothing, nothing, 1.0, ())
     if tare.how == "times":
         inside = (record.time >= tare.start) & (record.time <= tare.end)
         if np.count_nonzero(inside) < _FEWEST:
@@ -76,12 +77,18 @@ def find_zero(record: Record, tare: Tare, loading: str = "normal") -> Zero:
                 f"but needs {_FEWEST} to tare from"
             )
         stretches = [inside]
+    elif held:
+        # After the pull, rubber at rest under load still holds the rope taut.
+        stretches = _unloaded(record, record.traction, "traction")[:1]
     else:
         stretches = _unloaded(record, getattr(record, loading), loading)
-    normal, normal_error, one = _line(record.time, record.normal, stretches)
-    traction, traction_error, other = _line(record.time, record.traction, stretches)
+    traction, traction_error, longer = _line(record.time, record.traction, stretches)
+    if held:
+        note = f"normal force constant, {record.normal[0]:.4g} N, taken as known; traction tared by {traction[0]:.4g} N"
+        return Zero(nothing, traction, nothing, traction_error, longer, (note,))
+    normal, normal_error, other = _line(record.time, record.normal, stretches)
     notes = _described(normal, traction, len(stretches))
-    return Zero(normal, traction, normal_error, traction_error, 0.5 * (one + other), (notes,))
+    return Zero(normal, traction, normal_error, traction_error, 0.5 * (longer + other), (notes,))
 
 
 def _unloaded(record: Record, force: Real, name: str) -> list[Flags]:
@@ -92,6 +99,7 @@ def _unloaded(record: Record, force: Real, name: str) -> list[Flags]:
     noise = 1.4826 * float(np.median(np.abs(np.diff(force)))) / np.sqrt(2.0)
     height = float(np.max(np.abs(blocks - blocks[0])))
     ask = "say under tare in the YAML file of --columns when the rig was unloaded, or what its sensors read then"
+    ask += "; a known constant load is given as normal: and the force in N there" if name == "normal" else ""
     if height <= _RISE * noise:
         raise InvalidInput(f"{record.name} has no stretch before loading: the {name} force never rises; {ask}")
     low = np.abs(blocks - blocks[0]) < _LOADED * height

@@ -1,34 +1,30 @@
-"""The text of a logger's file as headings and numbers, whatever its separators, decimal marks and preamble."""
+"""A logger's file as headings, units and numbers: bytes, lines, layout, columns, one after the other."""
 
 from __future__ import annotations
 
-import codecs
-import csv
 import math
-import os
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from rubfric.arrays import Real
+from rubfric.arrays import Flags, Real
 from rubfric.errors import InvalidInput
+from rubfric.rig import labview
 from rubfric.rig.clock import clock_times, looks_like_clock
-from rubfric.rig.units import is_unit
+from rubfric.rig.decoding import decode
+from rubfric.rig.format import AS_FOUND, DECIMALS, Format
+from rubfric.rig.heading_rows import is_number
+from rubfric.rig.layout import Layout, find_layout
+from rubfric.rig.numerals import decimal_mark, looks_numeric, number, parted
 
-SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "space": None}
-DECIMALS = {"point": ".", "comma": ","}
-# Most lines before the headings, and rows below them that must look like numbers.
-_LONGEST_PREAMBLE, _ROWS_TO_LOOK_AT = 300, 3
-_FEWEST_COLUMNS = 4
-# Lines below the headings by which they are recognised: a line of units, and rows of numbers with empty ones.
-_LOOKED_AT = 2 + 2 * _ROWS_TO_LOOK_AT
-# Share of rows that may be unreadable.
-_MOST_UNREADABLE = 0.05
-_MISSING = {"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?", "inf", "-inf", "+inf"}
-_OVERLOADED = {"ol", "ovl", "over", "overload", "ovr", "overflow", "#over", "ovf"}
-_NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)*|[.,]\d+)([eE][+-]?\d+)?$")
+# Rows with an unreadable field: at most so many with words of one form, and at most this share of all rows.
+_ALIKE, _MOST_UNREADABLE = 2, 0.01
+# Most lines that a heading in quotation marks may have.
+_TALLEST = 40
+_FIRST_LINES = 50
 
 
 @dataclass(frozen=True)
@@ -38,181 +34,177 @@ class TextTable:
     Attributes
     ----------
     preamble : tuple of str
-        Lines before the headings.
+        Lines before the numbers.
     headings, units : tuple of str
-        Of each column; units are empty strings where no line below the headings holds them.
+        Of each column; empty strings where there are none.
     values : numpy.ndarray, shape (rows, columns)
         NaN where a value is missing, infinite where the logger wrote that its input was overloaded.
+    unreadable : numpy.ndarray of bool, shape (rows, columns)
+        Where there is a word that is no number; the value is NaN.
+    rows : list of (int, list of str)
+        Number of the line, and its fields.
     notes : tuple of str
-        What was left out.
+        What was guessed or left out.
     clocks : tuple of int
         Columns that held times as a clock shows them; they are in s.
+    line : int
+        Of the headings, or else of the first numbers, from 1.
     """
 
     preamble: tuple[str, ...]
     headings: tuple[str, ...]
     units: tuple[str, ...]
     values: Real
+    unreadable: Flags
+    rows: list[tuple[int, list[str]]]
     notes: tuple[str, ...]
     clocks: tuple[int, ...] = ()
+    line: int = 1
 
 
-def read_text(path: str, separator: str | None = None, decimal: str | None = None) -> TextTable:
+def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> TextTable:
     """Read a logger's file.
 
     Parameters
     ----------
     path : str
-    separator : {"tab", "semicolon", "comma", "space"}, optional
-        Found out by default.
-    decimal : {"point", "comma"}, optional
-        Found out by default.
+    form : Format
+        What is not said is found out.
+    names : sequence of str
+        Headings to be expected, in small letters and without units.
 
     Raises
     ------
     InvalidInput
-        For a file without headings above numbers, or with numbers that may be read in two ways.
+        For a file without rows of numbers, with fields that cannot be read, or with numbers that may be read in two
+        ways.
     FileNotFoundError
         For a missing file.
     """
-    lines = _decoded(path).replace("\N{MINUS SIGN}", "-").splitlines()
-    kinds = [separator] if separator else list(SEPARATORS)
-    for kind in kinds:
-        start = _headings(_split(lines[: _LONGEST_PREAMBLE + _LOOKED_AT], SEPARATORS[kind]))
-        if start is not None:
-            rows = _split(lines, SEPARATORS[kind])
-            break
-    else:
-        raise InvalidInput(
-            f"{path} has no line of headings above rows of at least {_FEWEST_COLUMNS} numbers, parted by "
-            "tabs, semicolons, commas or spaces"
-        )
-    headings = tuple(rows[start])
-    below = start + 1
-    units = tuple("" for _ in headings)
-    if _is_units(rows[below], len(headings)):
-        units, below = tuple(word.strip().strip("[](){} ") for word in rows[below]), below + 1
-    values, notes, clocks = _numbers(path, rows[below:], headings, decimal, below)
-    return TextTable(tuple(lines[:start]), headings, units, values, notes, clocks)
+    text, guess = decode(path, form.encoding, names)
+    lines = _lines(text)
+    form = labview.completed(path, lines, form)
+    layout = labview.named(lines, find_layout(path, lines, names, form.separator, form.headings))
+    top = layout.heading_line or layout.rows[0][0]
+    above = tuple(lines[: top - 1])
+    rows, units = _rows(layout)
+    values, unreadable, clocks = _numbers(path, layout, rows, form)
+    headings = layout.headings
+    notes = [guess] if guess else []
+    notes += layout.notes
+    words = len(layout.rows) - len(rows)
+    notes += [f"{words} lines without numbers left out below the headings"] if words else []
+    time = labview.times(lines[:top], len(values))
+    if time is not None:
+        headings, units, values = (*headings, "time"), (*units, "s"), np.column_stack([values, time])
+        unreadable = np.column_stack([unreadable, np.zeros(len(values), dtype=bool)])
+    return TextTable(above, headings, units, values, unreadable, rows, tuple(notes), clocks, top)
 
 
-def _decoded(path: str) -> str:
-    """Return a file's text, whatever its encoding."""
-    if os.path.isdir(path):
-        raise InvalidInput(f"{path} is a folder, but must be a file of measured values")
-    with open(path, "rb") as stream:
-        content = stream.read()
-    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return content.decode("utf-16", errors="replace")
-    if b"\0" in content:
-        raise InvalidInput(f"{path} is no text file: export the record as text (CSV)")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return content.decode("cp1252", errors="replace")
+def _lines(text: str) -> list[str]:
+    """Return the lines of a text; one field of the headings in quotation marks may have been written over several."""
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    for place, line in enumerate(lines[:_FIRST_LINES]):
+        quotes = line.count('"') * (not _begins_numeric(line))
+        end = place + 1
+        while quotes % 2 and end < min(place + _TALLEST, len(lines)) and not _begins_numeric(lines[end]):
+            quotes += lines[end].count('"')
+            end += 1
+        if quotes % 2 == 0 and end > place + 1:
+            # The number of lines stays, so that messages name the right ones.
+            lines[place:end] = [*[""] * (end - place - 1), " ".join(lines[place:end])]
+    return lines
 
 
-def _split(lines: Sequence[str], separator: str | None) -> list[list[str]]:
-    """Return the fields of each line."""
-    if separator is None:
-        return [line.split() for line in lines]
-    rows = list(csv.reader(lines, delimiter=separator, skipinitialspace=True))
-    # A quotation mark that is never closed would swallow lines: then they are split as they are.
-    return rows if len(rows) == len(lines) else [line.split(separator) for line in lines]
+def _begins_numeric(line: str) -> bool:
+    return looks_numeric(re.split(r"[\t;,|]", line)[0])
 
 
-def _headings(rows: Sequence[Sequence[str]]) -> int | None:
-    """Return the line of the headings: no number in it, and as many numbers in each of the rows below."""
-    for place in range(min(len(rows) - 1, _LONGEST_PREAMBLE)):
-        count = len(rows[place])
-        if count < _FEWEST_COLUMNS or any(_looks_numeric(word) for word in rows[place]):
-            continue
-        below = place + 2 if _is_units(rows[place + 1], count) else place + 1
-        first = [row for row in rows[below : below + 2 * _ROWS_TO_LOOK_AT] if any(word.strip() for word in row)]
-        good = [row for row in first if len(row) == count and any(_looks_numeric(word) for word in row)]
-        if good and good[0] is first[0] and len(good) >= min(_ROWS_TO_LOOK_AT, len(first)):
-            return place
-    return None
+def _rows(layout: Layout) -> tuple[list[tuple[int, list[str]]], tuple[str, ...]]:
+    """Return all rows with numbers, filled up with empty fields, and the units of the columns.
 
-
-def _is_units(row: Sequence[str], count: int) -> bool:
-    """Return whether a line holds units: nothing else, and at least one that is known."""
-    words = [word.strip() for word in row]
-    return len(row) == count and any(map(is_unit, words)) and not any(map(_looks_numeric, words))
-
-
-def _looks_numeric(word: str) -> bool:
-    return bool(_NUMBER.match(word.strip()))
+    A unit that all numbers of a column have behind them becomes that of the column.
+    """
+    count, units = len(layout.headings), list(layout.units)
+    rows = [
+        (line, [*row, *[""] * (count - len(row))]) for line, row in layout.rows if any(is_number(word) for word in row)
+    ]
+    for place in range(count):
+        pairs = [parted(row[place]) for _, row in rows] if parted(rows[0][1][place]) else []
+        found = {pair[1] for pair in pairs if pair}
+        if len(found) == 1:
+            units[place] = found.pop()
+            for (_, row), pair in zip(rows, pairs, strict=True):
+                row[place] = pair[0] if pair else row[place]
+    return rows, tuple(units)
 
 
 def _numbers(
-    path: str, rows: Sequence[Sequence[str]], headings: Sequence[str], decimal: str | None, before: int
-) -> tuple[Real, tuple[str, ...], tuple[int, ...]]:
-    """Return the values of all rows, notes on rows that were left out, and which columns are clocks."""
-    filled = [(line, row) for line, row in enumerate(rows, before + 1) if any(word.strip() for word in row)]
-    mark = DECIMALS[decimal] if decimal else _decimal(path, [word for _, row in filled for word in row])
-    count = len(headings)
-    whole = [(line, row) for line, row in filled if len(row) == count]
-    columns, clocks = [], []
-    for place, heading in enumerate(headings):
-        numbers, is_clock = _column(f"{path}, column {heading!r},", [row[place] for _, row in whole], mark)
-        columns.append(numbers)
-        clocks += [place] if is_clock else []
-    read = {line: numbers for (line, _), *numbers in zip(whole, *columns, strict=True) if None not in numbers}
-    bad = [(line, row) for line, row in filled if line not in read]
-    if len(bad) > _MOST_UNREADABLE * len(filled) + 1:
-        line, row = bad[0]
-        shown = "; ".join(row)[:60]
-        raise InvalidInput(
-            f"{path} has {len(bad)} unreadable rows of {len(filled)}, the first of them line {line}: {shown!r}"
-        )
-    notes = (f"{len(bad)} unreadable rows left out, the first of them line {bad[0][0]}",) if bad else ()
-    return np.array(list(read.values()), dtype=np.float64).reshape(-1, count), notes, tuple(clocks)
+    path: str, layout: Layout, rows: Sequence[tuple[int, list[str]]], form: Format
+) -> tuple[Real, Flags, tuple[int, ...]]:
+    """Return the values of all rows, which of those are unreadable, and which columns are clocks."""
+    count = len(layout.headings)
+    mark = DECIMALS[form.decimal] if form.decimal else decimal_mark(path, (word for _, row in rows for word in row))
+    special = re.compile(f"({_pattern(form.missing)})|({_pattern(form.overloaded)})")
+    values, unreadable = np.full((len(rows), count), np.nan), np.zeros((len(rows), count), dtype=bool)
+    clocks = []
+    for place, heading in enumerate(layout.headings):
+        words = [row[place] for _, row in rows]
+        if sum(map(looks_like_clock, words)) > len(words) // 2:
+            clocks.append(place)
+            values[:, place] = clock_times(f"{path}, column {heading or place + 1!r},", words)
+            continue
+        numbers = [number(word, mark, special) for word in words]
+        # A column without a single number holds words, such as dates or states.
+        if any(one is not None and not math.isnan(one) for one in numbers):
+            unreadable[:, place] = [one is None for one in numbers]
+            values[:, place] = [math.nan if one is None else one for one in numbers]
+    unreadable[[len(row) > count for _, row in rows]] = True
+    return values, unreadable, tuple(clocks)
 
 
-def _column(where: str, words: Sequence[str], mark: str) -> tuple[list[float | None], bool]:
-    """Return the numbers of a column, None where a word is none, and whether they are the times of a clock, in s.
+def _pattern(words: Sequence[str]) -> str:
+    """Return a regular expression for words in which ``*`` is for any characters, unless they hold nothing else."""
+    found = [re.escape(word) if word.strip("*") == "" else re.escape(word).replace(r"\*", ".*") for word in words]
+    return "|".join(rf"{word}(?:[.,]0*)?" if word[-1:].isdigit() else word for word in found) or "(?!)"
 
-    A column without a single number holds words, such as dates or states, which count as missing.
+
+def readable(path: str, table: TextTable, places: Sequence[int]) -> tuple[Flags, list[str]]:
+    """Return which rows can be read in some columns, and a note where others are left out.
+
+    What cannot be read may go with the value, as an unknown sign does, so that the rest would be biased. Only a few
+    words, each of another form, are accidents.
+
+    Parameters
+    ----------
+    path : str
+        The file, for messages.
+    table : TextTable
+    places : sequence of int
+        The columns.
+
+    Raises
+    ------
+    InvalidInput
+        Where leaving rows out could bias the rest.
     """
-    numbers = [_number(word, mark) for word in words]
-    if any(number is not None for number in numbers):
-        return numbers, False
-    if sum(map(looks_like_clock, words)) > len(words) // 2:
-        return list(clock_times(where, words)), True
-    return [math.nan] * len(words), False
-
-
-def _decimal(path: str, words: Sequence[str]) -> str:
-    """Return the decimal mark: a comma where numbers have commas, unless those may part thousands."""
-    commas = [word.strip() for word in words if "," in word and _looks_numeric(word)]
-    if not commas:
-        return "."
-    points = any("." in word and _looks_numeric(word) for word in words)
-    if points or any(word.count(",") > 1 for word in commas):
+    bad: Flags = np.asarray(table.unreadable[:, list(places)].any(axis=1))
+    if not bad.any():
+        return np.logical_not(bad), []
+    count = len(table.headings)
+    forms: Counter[str] = Counter()
+    first = ""
+    for at in np.flatnonzero(bad):
+        line, row = table.rows[at]
+        column = next(place for place in places if table.unreadable[at, place])
+        long = len(row) > count
+        forms["long" if long else re.sub(r"\d+", "0", row[column])] += 1
+        what = f"{len(row)} fields for {count} headings" if long else repr(row[column].strip()[:40])
+        first = first or f"line {line}: {what}" + ("" if long else f" in the column {table.headings[column]!r}")
+    if forms.most_common(1)[0][1] > _ALIKE or bad.sum() > _MOST_UNREADABLE * bad.size + 1:
         raise InvalidInput(
-            f"{path} has commas and points in its numbers, such as {commas[0]!r}: export it without marks of "
-            "thousands, or say in the YAML file of --columns which one is the decimal mark"
+            f"{path} has {bad.sum()} unreadable rows of {bad.size}, the first of them {first}; to leave them out could "
+            "bias the rest: correct them, or list such words in the YAML file of --columns, under missing if they mean "
+            "that there is no value, or under overloaded if an input was beyond its range"
         )
-    if all(re.match(r"^[+-]?[1-9]\d{0,2},\d{3}$", word) for word in commas):
-        raise InvalidInput(
-            f"{path} has numbers such as {commas[0]!r}, whose comma may part decimals or thousands: write decimal: "
-            "comma or decimal: point in the YAML file of --columns"
-        )
-    return ","
-
-
-def _number(word: str, mark: str) -> float | None:
-    """Return a number, NaN for a missing one, infinity for an overloaded input, or None for anything else."""
-    plain = word.strip()
-    if not _NUMBER.match(plain):
-        folded = plain.casefold()
-        return math.nan if folded in _MISSING else math.inf if folded in _OVERLOADED else None
-    # The other mark parts thousands, where the user has said so.
-    other = "." if mark == "," else ","
-    if other in plain:
-        plain = plain.replace(other, "")
-    try:
-        return float(plain.replace(mark, "."))
-    except ValueError:  # a mark that occurs twice
-        return None
+    return np.logical_not(bad), [f"{bad.sum()} unreadable rows left out, the first of them {first}"]

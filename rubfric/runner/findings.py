@@ -6,6 +6,8 @@ import csv
 import os
 from collections.abc import Iterable
 
+from rubfric.checksums import check_signature
+
 # How a total was obtained, in words.
 WAYS = {
     "direct": "all scales at once",
@@ -74,8 +76,9 @@ def _point(row: dict[str, str]) -> str:
 
 
 def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
-    """Return the rows of a table in which none of these columns is empty; no row where it is missing or lacks them."""
+    """Return the rows of a table in which none of these columns is empty; none where it is damaged or lacks them."""
     try:
+        check_signature(path, required=False)
         with open(path, encoding="utf-8", newline="") as stream:
             return [row for row in csv.DictReader(stream) if all(row.get(column) for column in columns)]
     except OSError:

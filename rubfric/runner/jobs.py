@@ -21,8 +21,9 @@ import types
 from collections.abc import Callable, Iterator
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from rubfric.errors import RubfricError
 from rubfric.files import why_not
@@ -30,8 +31,31 @@ from rubfric.files import why_not
 # One thread each: the systems are small, and jobs run side by side.
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _LOCK = threading.Lock()
-_IDLE: list[Connection] = []
+_IDLE: list[Worker] = []
 _SECONDS: dict[str, float] = {}
+# How long to wait for the exit status of a process that has ended, s.
+_PATIENCE = 5.0
+
+
+class Worker(NamedTuple):
+    """A process that runs jobs one by one, and the connection to it."""
+
+    connection: Connection
+    process: BaseProcess
+
+    def last_words(self) -> str:
+        """Return how the process ended that has not said why."""
+        self.process.join(_PATIENCE)
+        status = self.process.exitcode
+        if status is not None and status >= 0:
+            return (
+                f"the job's process ended with exit status {status} before it could say why; this is an error of the "
+                "program: report it, with the log"
+            )
+        return (
+            "the job's process died before it could say why; most likely it was killed, perhaps for lack of memory: "
+            "run again, with fewer jobs at a time (-j1) if it happens again"
+        )
 
 
 class JobFailed(RubfricError, RuntimeError):
@@ -40,6 +64,7 @@ class JobFailed(RubfricError, RuntimeError):
 
 def warm_up() -> None:
     """Start the server; returns at once, while it imports."""
+    _open_standard_files()
     for name in _ONE_THREAD:
         os.environ[name] = "1"
     os.environ.setdefault("MPLBACKEND", "Agg")
@@ -67,14 +92,11 @@ def run(script: str, log: str, **arguments: Any) -> None:
     worker = _begin((script, log, arguments))
     began = time.monotonic()
     try:
-        failure = worker.recv()
+        failure = worker.connection.recv()
     except (EOFError, OSError):
-        failure = (
-            "the job's process died before it could say why; most likely it was killed, perhaps for lack of memory: "
-            "run again, with fewer jobs at a time (-j1) if it happens again"
-        )
+        failure = worker.last_words()
     if failure:
-        worker.close()
+        worker.connection.close()
         raise JobFailed(f"{failure} (log: {log})")
     with _LOCK:
         _IDLE.append(worker)
@@ -86,23 +108,23 @@ def seconds(log: str) -> float | None:
     return _SECONDS.get(log)
 
 
-def _begin(job: tuple[str, str, dict[str, Any]]) -> Connection:
-    """Send a job to a worker and return the connection to it once the job has begun; skip workers that died idle."""
+def _begin(job: tuple[str, str, dict[str, Any]]) -> Worker:
+    """Send a job to a worker and return it once the job has begun; skip workers that died idle."""
     while True:
         worker, fresh = _hire()
         try:
-            worker.send(job)
-            worker.recv()
+            worker.connection.send(job)
+            worker.connection.recv()
         except (EOFError, OSError) as error:
-            worker.close()
+            worker.connection.close()
             if fresh:
                 raise JobFailed(f"no process could be started for the job (log: {job[1]})") from error
         else:
             return worker
 
 
-def _hire() -> tuple[Connection, bool]:
-    """Return the connection to an idle worker or to a new one, and whether it is new."""
+def _hire() -> tuple[Worker, bool]:
+    """Return an idle worker or a new one, and whether it is new."""
     warm_up()
     with _LOCK:
         if _IDLE:
@@ -110,9 +132,19 @@ def _hire() -> tuple[Connection, bool]:
         context = multiprocessing.get_context("forkserver")
         ours, theirs = context.Pipe()
         with _hidden_main():
-            context.Process(target=_serve, args=(theirs,), daemon=True).start()
+            process = context.Process(target=_serve, args=(theirs,), daemon=True)
+            process.start()
     theirs.close()
-    return ours, True
+    return Worker(ours, process), True
+
+
+def _open_standard_files() -> None:
+    """Open what the caller has closed of standard input, output and error, lest other files take their numbers."""
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)  # takes the lowest number that is free
 
 
 @contextlib.contextmanager
@@ -129,10 +161,6 @@ def _hidden_main() -> Iterator[None]:
 def _serve(connection: Connection) -> None:
     """Run the jobs that arrive, one by one, until the caller closes the connection."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(
-            line_buffering=True
-        )  # keeps the order of the log, and the output of a job that is killed
     with contextlib.suppress(EOFError):
         while True:
             script, log, arguments = connection.recv()
@@ -154,15 +182,17 @@ def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
         known = why_not(place, error) if isinstance(error, OSError) else error
         return f"{type(known).__name__}: {known}"
     finally:
-        with contextlib.suppress(OSError):
-            sys.stdout.flush()
-            sys.stderr.flush()
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError):
+                stream.flush()
     return None
 
 
 def _redirect(log: str) -> None:
-    """Send all output of this process to a file."""
+    """Send all output of this process to a file, line by line: the output of a job that is killed is kept."""
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     with open(log, "w", encoding="utf-8") as stream:
         for descriptor in (1, 2):
             os.dup2(stream.fileno(), descriptor)
+    files = (io.BufferedWriter(io.FileIO(number, "w", closefd=False)) for number in (1, 2))
+    sys.stdout, sys.stderr = (io.TextIOWrapper(each, encoding="utf-8", line_buffering=True) for each in files)

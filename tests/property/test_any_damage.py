@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
+import netCDF4
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -49,8 +51,38 @@ def test_result_cut_anywhere_is_named(place: Path, share: float) -> None:
     damaged = cut(place, "scene.nc", share)
     with pytest.raises(BrokenResult, match=r"damaged-scene\.nc cannot be read: .*; delete it and run again"):
         dataset.read(damaged)
-    with pytest.raises(BrokenResult, match=r"damaged-scene\.nc is no readable result: .*; delete it and run again"):
+    with pytest.raises(BrokenResult, match=r"damaged-scene\.nc cannot be read: [^;]*; delete it and run again$"):
         collection.collect([damaged])
+
+
+@pytest.mark.parametrize("name", ["scene.nc", "campaign.nc"])
+def test_flipped_bit_is_named(place: Path, name: str, rng: np.random.Generator) -> None:
+    content, damaged = (place / name).read_bytes(), place / f"flipped-{name}"
+    for bit in rng.integers(8 * len(content), size=300):
+        changed = bytearray(content)
+        changed[bit // 8] ^= 1 << (bit % 8)
+        damaged.write_bytes(changed)
+        with pytest.raises(
+            BrokenResult, match=rf"flipped-{name} cannot be read: .* checksum.*; delete it and run again$"
+        ):
+            dataset.load(damaged)
+        if name == "scene.nc":
+            with pytest.raises(BrokenResult, match=r"flipped-scene\.nc cannot be read"):
+                collection.collect([damaged])
+
+
+def test_forged_attribute_and_scalar_are_named(place: Path) -> None:
+    forged = place / "forged.nc"
+    for forge in (
+        lambda stored: stored.setncattr("velocity", 50.0),
+        lambda stored: stored["friction_coefficient"].__setitem__(..., 0.1),
+        lambda stored: stored["friction_coefficient"].setncattr("units", "2"),
+    ):
+        shutil.copy(place / "scene.nc", forged)
+        with netCDF4.Dataset(forged, "a") as stored:
+            forge(stored)
+        with pytest.raises(BrokenResult, match=r"forged\.nc cannot be read: .*; delete it and run again$"):
+            collection.collect([forged], [SCENE.digest])
 
 
 @given(share=shares)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import resource
+import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 import xarray as xr
 
 from rubfric.errors import NotWritten, RubfricError
-from rubfric.files import check_folder, check_place, whole, why_not
+from rubfric.files import check_folder, check_place, mark, remove_parts, whole, why_not
 from rubfric.results.dataset import write
 
 
@@ -31,7 +32,9 @@ def files_up_to(size: int) -> Iterator[None]:
 
 def full_disk(target: Path) -> None:
     """Have what is written for ``target`` end up on a device that is always full."""
-    target.with_name(f".{target.name}.{os.getpid()}.part").symlink_to("/dev/full")
+    with pytest.raises(ZeroDivisionError), whole(target) as part:
+        part.write_text(f"{1 // len('')}")
+    part.symlink_to("/dev/full")
 
 
 def test_file_appears_when_it_is_complete(tmp_path: Path) -> None:
@@ -134,3 +137,35 @@ def test_errors_of_other_kinds_are_left_as_they_are() -> None:
 def test_refusal_is_an_error_of_the_project_and_of_the_system() -> None:
     assert issubclass(NotWritten, RubfricError)
     assert issubclass(NotWritten, OSError)
+
+
+def test_only_what_killed_runs_left_is_removed(tmp_path: Path) -> None:
+    dead = subprocess.Popen(["true"])
+    dead.wait()
+    with whole(tmp_path / "going.nc") as part:
+        part.touch()
+        host = part.name.split(".")[-3]
+        kept = [part.name, "notes.part", ".notes.part", "results.1.part", ".other.nc.ffffff.1.part", ".old.nc.1.part"]
+        gone = [f".scene.nc.{host}.{dead.pid}.part", ".far.nc.ffffff.2.part", ".far.nc.2.part"]
+        (tmp_path / "deep").mkdir()
+        for name in [*kept, *gone]:
+            (tmp_path / "deep" / name).touch()
+        for name in gone[1:]:
+            os.utime(tmp_path / "deep" / name, (0, 0))
+        remove_parts(tmp_path)
+        assert sorted(path.name for path in (tmp_path / "deep").iterdir()) == sorted(kept)
+    assert (tmp_path / "going.nc").exists()
+
+
+def test_mark_replaces_its_like_and_nothing_of_the_user(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").touch()
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "0123456789abcdee").write_text("not empty")
+    for name in ("0123456789abcdef", "fedcba9876543210", "fedcba9876543210"):
+        mark(tmp_path / name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "0123456789abcdee",
+        "fedcba9876543210",
+        "folder",
+        "notes.txt",
+    ]

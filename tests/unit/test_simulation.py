@@ -161,3 +161,20 @@ def test_largest_poissons_ratio_loses_no_digits(scene: Scene, kinematics: str, p
         result = simulate(replace(scene, material=replace(scene.material, poissons_ratio=ratio)))
         friction.append(float(result["friction_coefficient"]))
     assert friction[0] == pytest.approx(friction[1], rel=3e-6)
+
+
+@pytest.mark.parametrize(("refinements", "first_row"), [(0, 1.0), (0, 5.0), (0, 20.0), (0, 100.0), (3, 100.0)])
+@pytest.mark.parametrize("point", [(4, 470.0, 0.26, 0.3), (3, 270.0, 0.15, 0.75), (1, 250.0, 0.18, 0.5)])
+def test_error_is_within_its_bar_however_high_the_first_row(
+    point: tuple[float, ...], refinements: int, first_row: float
+) -> None:
+    campaign = rubfric.load(CONFIG)
+    scene = campaign.scene(*point, kinematics="small", preset="reference")
+    fine = simulate(scene)
+    draft = replace(campaign.presets["draft"], refinements=refinements, first_row=first_row)
+    found = simulate(replace(scene, numerics=draft))
+    off = abs(float(found["friction_coefficient"] - fine["friction_coefficient"]))
+    assert off <= float(found["friction_coefficient_error"] + fine["friction_coefficient_error"])
+    if first_row == 100.0:
+        assert "is not met" in found.attrs["warnings"]
+        assert "lower numerics.first_row" in found.attrs["warnings"]

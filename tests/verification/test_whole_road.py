@@ -98,7 +98,7 @@ def test_stated_error_covers_the_difference_to_a_mesh_twice_as_fine(velocity: fl
 @pytest.mark.thorough
 def test_stated_error_covers_the_difference_to_the_limit_of_three_meshes() -> None:
     covered = []
-    for velocity, pressure, plane in product((0.1, 10.0, 100.0, 1000.0, 1e4), (0.2, 1.0, 3.0), ("strain", "stress")):
+    for velocity, pressure, plane in product((0.1, 100.0, 1e4), (0.2, 1.0, 3.0), ("strain", "stress")):
         solution = solve(whole_scene(velocity, pressure, plane=plane))
         reference, stated = converge(solution.scene), friction_error(solution)
         error = abs(solution.friction.stress_power - reference.friction)

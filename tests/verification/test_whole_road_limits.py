@@ -89,11 +89,13 @@ def test_of_64_random_waves_no_number_is_wrong(slope: float, velocity: float, pr
 
 
 @pytest.mark.thorough
-@PLANES
-@pytest.mark.parametrize(("waves", "slope"), [(1, 3.0), (2, 0.3), (8, 1.0), (64, 0.5), (64, 3.0)])
+@pytest.mark.parametrize(
+    ("waves", "slope", "plane"),
+    [(1, 3.0, "strain"), (2, 0.3, "stress"), (8, 1.0, "strain"), (64, 0.5, "stress"), (64, 3.0, "strain")],
+)
 def test_random_waves_slow_and_fast_light_and_heavy_no_number_is_wrong(waves: int, slope: float, plane: str) -> None:
     refused = 0
-    cases = [(v, p) for v in (1e-3, 0.1, 100.0, 1e4, 1e6) for p in (0.01, 0.1, 2.0, 10.0)]
+    cases = [(1e-3, 0.1), (0.1, 10.0), (100.0, 0.01), (100.0, 2.0), (1e4, 0.1), (1e4, 10.0), (1e6, 2.0)]
     for velocity, pressure in cases:
         scene = whole_scene(velocity, pressure, plane=plane, road=random_road(2, waves, slope))
         found = answer(scene)

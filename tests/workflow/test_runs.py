@@ -11,6 +11,9 @@ import pandas as pd
 import pytest
 from project_copy import Project
 
+from rubfric.results.campaign import COLLECTED
+from rubfric.results.dataset import load, write
+from rubfric.results.tables import write_table
 from rubfric.simulation import simulate
 
 
@@ -45,14 +48,31 @@ def test_damaged_result_is_named_and_made_again_once_deleted(project: Project, t
     damaged.write_bytes(damaged.read_bytes()[:2000])
     done = project.snakemake("tables")
     assert done.returncode == 1
-    sentence = (
-        rf"^BrokenResult: \S*{name}.nc is no readable result: .*; delete it and run again \(log: \S*campaign.log\)$"
-    )
+    sentence = rf"^BrokenResult: \S*{name}.nc cannot be read: [^;]*; delete it and run again \(log: \S*campaign.log\)$"
     assert len(re.findall(sentence, done.stderr, re.MULTILINE)) == 1
     damaged.unlink()
     assert project.plan().scenes == {name}
     project.run("tables")
     assert project.tables == template.tables
+
+
+@pytest.mark.thorough
+def test_march_reading_and_collection_of_another_rubber_are_named(project: Project) -> None:
+    march, reading = (next(project.results.rglob(f"{kind}/**/scale*")) for kind in ("marches", "readings"))
+    collection = project.results / "campaign.nc"
+    foreign = load(collection).assign_attrs({COLLECTED: "0" * 16})
+    write(load(march).assign_attrs(scene_digest="0" * 64), march)
+    write_table(pd.read_csv(reading).assign(scene_digest="0" * 64), reading)
+    done = project.snakemake("--keep-going")
+    assert done.returncode == 1
+    said = done.stderr
+    write(foreign, collection)
+    said += project.snakemake("tables").stderr
+    for path in (march, reading, collection):
+        named = (
+            f"^BrokenResult: {path.relative_to(project.root)} is the result of another scene, rubber or numerics .*; "
+        )
+        assert re.search(named + "delete it and run again", said, re.MULTILINE)
 
 
 @pytest.mark.thorough

@@ -78,6 +78,15 @@ rule claims:
     log:
         f"{RESULTS}/logs/claims.log",
     params:
+        digests={
+            "campaign": COLLECTED,
+            "profiles": [scene.digest for scene in CAMPAIGN.field_scenes().values()],
+            "marches": [scene.digest for scene in MARCHES.values()],
+            "readings": {
+                name: [scene.digest for scene in reading.scenes().values()]
+                for name, reading in READINGS.items()
+            },
+        },
         criteria=criteria(CAMPAIGN),
         roads={name: reading.whole_parameters() for name, reading in READINGS.items()},
         about={

@@ -1,5 +1,4 @@
 # What all rules share: paths, the names of rubber and road, and how a job runs.
-import hashlib
 import os
 import sys
 from types import SimpleNamespace
@@ -12,6 +11,7 @@ import rubfric
 from rubfric.runner import jobs
 from rubfric.config.campaign import load
 from rubfric.checks import written
+from rubfric.checksums import fingerprint
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
@@ -145,9 +145,10 @@ def pictures(figure, caption, shows, category=REPORT.figures):
     }
 
 
-def fingerprint(words):
-    """Return a short name for a list of words."""
-    return hashlib.sha256(" ".join(words).encode()).hexdigest()[:16]
+def whole_fingerprint(digests):
+    """Return what the collection of the whole road is known by, given the digests of the scenes of every road."""
+    roads = [fingerprint(sorted(each.values())) for each in digests.values()]
+    return roads[0] if "" in digests else fingerprint(roads)
 
 
 def reading_file(reading, batch):

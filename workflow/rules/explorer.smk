@@ -30,6 +30,7 @@ rule explorer:
         about={
             "aspect": CAMPAIGN.aspect,
             "road": ROAD,
+            "collected": [COLLECTED, WHOLE_COLLECTED],
             "digests": [
                 scene.digest
                 for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]

@@ -75,6 +75,7 @@ rule campaign_figure:
         figure="|".join(CAMPAIGN_FIGURES),
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
+        digests=[COLLECTED],
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -85,6 +86,7 @@ rule campaign_figure:
             results=input.results,
             choice=params.choice,
             outputs=list(output),
+            digests=params.digests,
         )
 
 
@@ -142,6 +144,7 @@ rule total_figure:
         figure="|".join(TOTAL_FIGURES),
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
+        collected=COLLECTED,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -151,6 +154,7 @@ rule total_figure:
             figure=wildcards.figure,
             table=input.table,
             campaign=input.campaign,
+            collected=params.collected,
             choice=params.choice,
             outputs=list(output),
         )

@@ -1,6 +1,8 @@
 # One job per scene. All that a scene depends on is in its params and in the package files it lists.
 SCENES = CAMPAIGN.scenes()
 DIGESTS = [scene.digest for scene in SCENES.values()]
+# What the collection of these scenes is known by.
+COLLECTED = fingerprint(sorted(DIGESTS))
 
 
 rule scene:

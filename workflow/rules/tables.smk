@@ -28,6 +28,8 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    params:
+        collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
     run:
@@ -37,6 +39,7 @@ rule scale_table:
             output=output.table,
             page=output.page,
             campaign=input.campaign,
+            collected=params.collected,
             scale=int(wildcards.scale),
         )
 
@@ -73,6 +76,7 @@ rule total_table:
         f"{RESULTS}/logs/tables/friction_total.log",
     params:
         road=CAMPAIGN.whole_parameters(),
+        collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -83,6 +87,7 @@ rule total_table:
             page=output.page,
             campaign=input.campaign,
             whole=list(input.whole),
+            collected=params.collected,
             road=params.road,
         )
 

@@ -9,6 +9,16 @@ WHOLE_MARK = (
 )
 # The collection of them, and its mark; none where the total does without.
 WHOLE_COLLECTION = [f"{RESULTS}/whole.nc", WHOLE_MARK] if WHOLE else []
+# Paths of the results of every road, and their digests; what the collection of these scenes is known by.
+WHOLE_DIGESTS = {
+    draw: {
+        whole_file(name): scene.digest
+        for name, scene in WHOLE.items()
+        if name.startswith(f"{draw}all_")
+    }
+    for draw in CAMPAIGN.whole_roads
+}
+WHOLE_COLLECTED = whole_fingerprint(WHOLE_DIGESTS)
 
 
 rule whole_scene:
@@ -52,14 +62,7 @@ rule whole_collection:
     log:
         f"{RESULTS}/logs/whole.log",
     params:
-        scenes={
-            draw: {
-                whole_file(name): scene.digest
-                for name, scene in WHOLE.items()
-                if name.startswith(f"{draw}all_")
-            }
-            for draw in CAMPAIGN.whole_roads
-        },
+        scenes=WHOLE_DIGESTS,
     message:
         "Collecting the whole road"
     run:

@@ -19,6 +19,7 @@ def main(
     whole: list[str],
     scenes: list[str],
     digests: list[str],
+    collected: list[str],
     aspect: float,
     road: str,
 ) -> None:
@@ -37,16 +38,17 @@ def main(
     scenes, digests : list of str
         Paths of results with the height-to-width ratio ``aspect`` (netCDF), those of the whole road among them, and the
         digests that they must have. A refusal has no picture.
+    collected : list of str
+        What the collections ``campaign`` and ``whole`` are known by.
     aspect : float
         Height over width of the blocks.
     road : str
         Name of the road.
     """
     results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True) if not refused(path))
-    of_road = collection.read(whole[0]) if whole else None
-    write_page(
-        page(payload(collection.read(campaign), read_table(table, WORDS), results, aspect, road, of_road)), output
-    )
+    of_road = collection.read(whole[0], collected[1]) if whole else None
+    gathered = collection.read(campaign, collected[0])
+    write_page(page(payload(gathered, read_table(table, WORDS), results, aspect, road, of_road)), output)
 
 
 def refused(path: str) -> bool:

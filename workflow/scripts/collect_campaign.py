@@ -1,7 +1,6 @@
 """Collect the scalars of all scenes."""
 
-from pathlib import Path
-
+from rubfric.files import mark as leave
 from rubfric.results.campaign import collect
 from rubfric.results.dataset import write
 
@@ -16,10 +15,8 @@ def main(output: str, scenes: list[str], digests: list[str], mark: str) -> None:
     scenes, digests : list of str
         Paths of results (netCDF), and the digests that they must have.
     mark : str
-        Path of an empty file, alone in its folder, whose name represents these digests.
+        Path of an empty file whose name represents these digests; it takes the place of such files beside it.
     """
     collected = collect(scenes, digests)
-    for other in Path(mark).parent.iterdir():
-        other.unlink()
     write(collected, output)
-    Path(mark).touch()
+    leave(mark)

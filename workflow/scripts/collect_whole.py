@@ -1,7 +1,6 @@
 """Collect the scalars of all scenes of the whole road."""
 
-from pathlib import Path
-
+from rubfric.files import mark as leave
 from rubfric.results.campaign import collect
 from rubfric.results.dataset import write
 from rubfric.results.draws import over_draws
@@ -18,10 +17,8 @@ def main(output: str, scenes: dict[str, dict[str, str]], mark: str) -> None:
         By the name of the draw, which is empty for a road that is not random: the paths of its results (netCDF), and
         the digests that they must have.
     mark : str
-        Path of an empty file, alone in its folder, whose name represents these digests.
+        Path of an empty file whose name represents these digests; it takes the place of such files beside it.
     """
     roads = {draw: collect(paths, paths.values()) for draw, paths in scenes.items()}
-    for other in Path(mark).parent.iterdir():
-        other.unlink()
     write(roads[""] if "" in roads else over_draws(list(roads.values())), output)
-    Path(mark).touch()
+    leave(mark)

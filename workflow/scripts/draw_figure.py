@@ -28,11 +28,11 @@ def main(
     outputs : list of str
         Paths; their endings choose the formats.
     digests : list of str, optional
-        Digests that single results must have.
+        Digests that single results must have, or what the collection is known by.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
     if isinstance(results, str):
-        drawn = draw(collection.read(results), **choice)
+        drawn = draw(collection.read(results, *(digests or [])), **choice)
     else:
         read = [dataset.read(path, digest) for path, digest in zip(results, digests or [], strict=True)]
         drawn = draw(read, **choice)

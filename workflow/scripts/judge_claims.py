@@ -4,14 +4,18 @@ from typing import Any
 
 import pandas as pd
 
+from rubfric.checksums import AGAIN
+from rubfric.errors import BrokenResult
 from rubfric.pages.claims import claims_page
 from rubfric.pages.render import write_page
+from rubfric.results import dataset
 from rubfric.results.campaign import read
-from rubfric.results.dataset import load
+from rubfric.results.provenance import OTHER_SCENE
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table
 from rubfric.results.whole_road import WholeRoad
 from rubfric.studies.paper.judge import Criteria, judge
+from rubfric.studies.paper.observation import WORDS as OBSERVED
 from rubfric.studies.paper.verdicts import EVERY
 
 
@@ -23,6 +27,7 @@ def main(
     marches: list[str],
     points: str,
     readings: dict[str, list[str]],
+    digests: dict[str, Any],
     roads: dict[str, dict[str, Any]],
     criteria: dict[str, Any],
     about: dict[str, str],
@@ -38,6 +43,9 @@ def main(
         and of the table of the test rig (CSV).
     readings : dict of str to list of str
         Paths of the observations (CSV) of each other reading.
+    digests : dict
+        What the ``campaign`` is known by, and the digests of the scenes of ``profiles`` and of ``marches``, in their
+        order, and of all scenes of each of the ``readings``.
     roads : dict
         The parameters of ``WholeRoad`` in each other reading.
     criteria : dict
@@ -46,13 +54,12 @@ def main(
         Every reading in words.
     """
     claims, evidence = judge(
-        read(campaign),
+        read(campaign, digests["campaign"]),
         read_table(totals, WORDS),
-        map(load, profiles),
-        map(load, marches),
+        *(map(dataset.read, paths, digests[name]) for name, paths in (("profiles", profiles), ("marches", marches))),
         read_table(points, ("run", "kind", "source")),
         {
-            reading: pd.concat([read_table(path, ("note",)) for path in paths], ignore_index=True)
+            reading: pd.concat([observations(path, digests["readings"][reading]) for path in paths], ignore_index=True)
             for reading, paths in readings.items()
         },
         {reading: WholeRoad.from_parameters(road) for reading, road in roads.items()},
@@ -62,3 +69,11 @@ def main(
     write_table(claims, outputs["claims"])
     write_page(claims_page(claims, evidence, about), outputs["page"])
     print(claims[claims["pressure_MPa"] == EVERY][["claim", "reading", "verdict", "parts"]].to_string(index=False))
+
+
+def observations(path: str, digests: list[str]) -> pd.DataFrame:
+    """Return the table of a batch of scenes; BrokenResult where one of them is not among those of its reading."""
+    table = read_table(path, OBSERVED)
+    if not set(table["scene_digest"]) <= set(digests):
+        raise BrokenResult(f"{path} {OTHER_SCENE}; {AGAIN}")
+    return table

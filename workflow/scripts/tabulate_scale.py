@@ -6,7 +6,7 @@ from rubfric.results.campaign import read
 from rubfric.results.tables import scale_table, write_table
 
 
-def main(output: str, page: str, campaign: str, scale: int) -> None:
+def main(output: str, page: str, campaign: str, collected: str, scale: int) -> None:
     """Write all scenes of one scale.
 
     Parameters
@@ -15,10 +15,12 @@ def main(output: str, page: str, campaign: str, scale: int) -> None:
         Paths of the table as CSV and as HTML.
     campaign : str
         Path of the collection of all scenes (netCDF).
+    collected : str
+        What that is known by.
     scale : int
         The scale, 1 being the coarsest.
     """
-    gathered = read(campaign)
+    gathered = read(campaign, collected)
     table = scale_table(gathered, scale)
     write_table(table, output)
     amplitude, wavenumber = (float(gathered[name].sel(scale=scale)) for name in ("amplitude", "wavenumber"))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from rubfric.files import whole
-from rubfric.results.tables import write_table
+from rubfric.results.tables import read_table, write_table
 from rubfric.studies.stability.cases import cases
 from rubfric.studies.stability.report import page as described
 
@@ -20,7 +20,7 @@ def main(table: str, page: str, batches: list[str]) -> None:
     batches : list of str
         Paths of the batches (CSV).
     """
-    joined = pd.concat([pd.read_csv(batch) for batch in batches]).set_index("case")
+    joined = pd.concat([read_table(batch, ("case", "reason")) for batch in batches]).set_index("case")
     joined = joined.loc[[case.name for case in cases()]].reset_index()
     write_table(joined, table)
     with whole(page) as part:

@@ -11,7 +11,7 @@ from rubfric.results.totals import total_table
 from rubfric.results.whole_road import WholeRoad
 
 
-def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str, Any]) -> None:
+def main(output: str, page: str, campaign: str, whole: list[str], collected: list[str], road: dict[str, Any]) -> None:
     """Write the friction of each scale and of the whole road, by all ways.
 
     Parameters
@@ -22,11 +22,13 @@ def main(output: str, page: str, campaign: str, whole: list[str], road: dict[str
         Path of the collection of all scenes (netCDF).
     whole : list of str
         Path of the collection of the whole road's scenes (netCDF), or nothing.
+    collected : list of str
+        What these collections are known by.
     road : dict
         The parameters of ``WholeRoad``.
     """
     about = WholeRoad.from_parameters(road)
-    table = total_table(read(campaign), read(whole[0]) if whole else None, about)
+    table = total_table(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
     write_table(table, output)
     words = (
         f"Friction of every scale and of the whole road, for blocks {about.aspect:g} times as high as the coarsest "

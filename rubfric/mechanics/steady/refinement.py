@@ -28,7 +28,7 @@ _NEAR = 1.5
 # Smallest and largest refinement that an error asks for, and how much more than its estimate says.
 _LEAST, _MOST, _MARGIN = 1.5, 2.0, 1.1
 # Where so fine a mesh may not be solved, one finer by this factor is worth while.
-_WORTH = 1.2
+LEAST_WORTH = 1.2
 
 Solution = TypeVar("Solution", bound=SteadySolution, covariant=True)
 
@@ -85,7 +85,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
 
 def _choices(scene: Scene, resolution: Resolution, factor: float, finite: bool) -> Iterator[Resolution]:
     """Yield finer meshes that may be solved, that of ``factor`` first; none that would be hardly finer."""
-    while factor >= _WORTH:
+    while factor >= LEAST_WORTH:
         finer = resolution.finer(scene, factor, finite)
         if finer.affordable(scene, finite):
             yield finer
@@ -123,5 +123,6 @@ def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, mesh
     solution = solver.solve(resolution)
     touching = int(np.count_nonzero(solution.contact.touching))
     block = solution.block
-    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction))
+    first_row = float(block.row_positions[1] / block.column_width)
+    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction, first_row))
     return solution

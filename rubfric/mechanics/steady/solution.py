@@ -44,6 +44,8 @@ class OnMesh:
     contact_nodes : int
         Surface nodes in contact.
     friction : Friction
+    first_row : float
+        Height of the row of cells at the road over the width of a column.
     """
 
     columns: int
@@ -51,6 +53,7 @@ class OnMesh:
     growth: float
     contact_nodes: int
     friction: Friction
+    first_row: float = 1.0
 
 
 def fold_scene(scene: Scene, wavenumbers: Real) -> Folding:

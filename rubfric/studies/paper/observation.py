@@ -21,6 +21,8 @@ DEPTH = {
     "largest",
 }
 AXES = ("scale", "velocity", "pressure", "aspect")
+# Columns that are text: the scene that was simulated, and why it was refused.
+WORDS = ("scene_digest", "note")
 
 
 def depth_measures(result: xr.Dataset) -> dict[str, float]:
@@ -49,7 +51,7 @@ def depth_measures(result: xr.Dataset) -> dict[str, float]:
 
 def observe(scene: Scene) -> dict[str, Any]:
     """Simulate a scene and return what claims are judged by; a scene that is refused has its reason in ``note``."""
-    row: dict[str, Any] = {name: getattr(scene, name) for name in AXES}
+    row: dict[str, Any] = {name: getattr(scene, name) for name in AXES} | {"scene_digest": scene.digest}
     try:
         result = simulate(scene)
     except (InvalidInput, NotConverged) as refusal:
@@ -90,7 +92,7 @@ def among(observations: pd.DataFrame, chosen: Mapping[str, Iterable[float]]) -> 
 
 def table(rows: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
     """Return observations as a table with all columns, whether or not any scene was solved."""
-    return pd.DataFrame(list(rows), columns=[*AXES, *SCALARS, *DEPTH, "note"])
+    return pd.DataFrame(list(rows), columns=[*AXES, *SCALARS, *DEPTH, *WORDS])
 
 
 def over_axes(observations: pd.DataFrame) -> xr.Dataset:
@@ -101,5 +103,5 @@ def over_axes(observations: pd.DataFrame) -> xr.Dataset:
     observations : pandas.DataFrame
         As from ``table``; each scene once.
     """
-    numbers = observations.drop(columns="note").astype(dict.fromkeys((*SCALARS, *DEPTH), float))
+    numbers = observations.drop(columns=list(WORDS)).astype(dict.fromkeys((*SCALARS, *DEPTH), float))
     return numbers.set_index(list(AXES)).to_xarray()

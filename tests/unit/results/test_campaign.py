@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from rubfric.checksums import fingerprint
 from rubfric.errors import BrokenResult
-from rubfric.results.campaign import AXES, collect
-from rubfric.results.dataset import write
+from rubfric.results.campaign import AXES, collect, read
+from rubfric.results.dataset import load, write
 from rubfric.results.scalars import SCALARS
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
@@ -24,6 +25,7 @@ SHARED = {
     "rubber": "r",
     "plane": "stress",
     "kinematics": "auto",
+    "scene_digest": "d",
     "scene_parameters": '{"material": {"name": "r"}, "numerics": {"contact_nodes": 64}}',
 }
 ROAD = {1: {"amplitude": 0.015, "wavenumber": 35.0}, 2: {"amplitude": 0.006, "wavenumber": 80.0}}
@@ -32,10 +34,12 @@ ROAD = {1: {"amplitude": 0.015, "wavenumber": 35.0}, 2: {"amplitude": 0.006, "wa
 def store(folder: Path, scale: int, velocity: float, pressure: float, friction: float, **changes: Any) -> Path:
     """Write a stand-in for a result: its scalars and the attributes that place it."""
     point = {"scale": scale, "velocity": velocity, "pressure": pressure, "aspect": 0.75}
-    values = dict.fromkeys(SCALARS, ((), 0.5)) | {"friction_coefficient": ((), friction)}
+    routes = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
+    values = dict.fromkeys(SCALARS, 0.5) | dict.fromkeys(routes, friction) | {"energy_closure": 0.0}
+    values |= {name: changes.pop(name) for name in set(changes) & set(SCALARS)}
     path = folder / f"{len(list(folder.iterdir()))}.nc"
     attributes = {"warnings": ""} | SHARED | ROAD[scale] | point | changes
-    xr.Dataset(values, attrs=attributes).to_netcdf(path)
+    write(xr.Dataset(values, attrs=attributes), path)
     return path
 
 
@@ -128,13 +132,13 @@ def test_nothing_to_collect_is_refused() -> None:
 def test_truncated_file_is_named(tmp_path: Path, kept: int) -> None:
     whole, broken = (store(tmp_path, 1, velocity, 1.0, 0.1) for velocity in (1.0, 2.0))
     broken.write_bytes(broken.read_bytes()[:kept])
-    with pytest.raises(BrokenResult, match=r"1.nc is no readable result: .*; delete it and run again$"):
+    with pytest.raises(BrokenResult, match=r"1.nc cannot be read: .* checksum[^;]*; delete it and run again$"):
         collect([whole, broken])
 
 
 def test_file_without_a_scalar_is_named(tmp_path: Path) -> None:
     old = tmp_path / "old.nc"
-    xr.load_dataset(store(tmp_path, 1, 1.0, 1.0, 0.1)).drop_vars("energy_closure").to_netcdf(old)
+    write(load(store(tmp_path, 1, 1.0, 1.0, 0.1)).drop_vars("energy_closure"), old)
     with pytest.raises(BrokenResult, match=r"old.nc is no readable result: .*energy_closure"):
         collect([old])
 
@@ -142,10 +146,36 @@ def test_file_without_a_scalar_is_named(tmp_path: Path) -> None:
 def test_foreign_and_missing_files_are_named(tmp_path: Path) -> None:
     foreign = tmp_path / "weather.nc"
     xr.Dataset({"temperature": ((), 1.0)}).to_netcdf(foreign)
-    with pytest.raises(BrokenResult, match=r"weather.nc is no readable result"):
+    with pytest.raises(BrokenResult, match=r"weather.nc cannot be read: it has no checksum, .* or no file of rubfric"):
         collect([foreign])
-    with pytest.raises(BrokenResult, match=r"nowhere.nc is no readable result"):
+    with pytest.raises(BrokenResult, match=r"nowhere.nc cannot be read: No such file"):
         collect([tmp_path / "nowhere.nc"])
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"friction_coefficient": np.nan}, "a number that is not finite"),
+        ({"friction_coefficient": -0.6}, "a friction below zero by more than its error, routes to friction that"),
+        ({"friction_coefficient": 0.2}, "routes to friction that do not differ by its energy_closure"),
+        ({"energy_closure": 1e-3}, "routes to friction that do not differ by its energy_closure"),
+        ({"friction_coefficient_error": -0.1}, "a negative error"),
+        ({"contact_fraction": 1.5}, "a contact fraction outside 0 to 1"),
+        ({"maximum_contact_pressure": -1.0}, "a negative pressure"),
+    ],
+)
+def test_numbers_that_no_result_has_are_refused(tmp_path: Path, change: dict[str, float], says: str) -> None:
+    with pytest.raises(BrokenResult, match=rf"0.nc has (.*, )?{says}.*, which no result has; delete it and run again$"):
+        collect([store(tmp_path, 1, 1.0, 1.0, 0.1, **change)])
+
+
+def test_collection_of_other_scenes_is_refused(tmp_path: Path) -> None:
+    paths = [store(tmp_path, 1, velocity, 1.0, 0.1, scene_digest=f"of {velocity}") for velocity in (1.0, 2.0)]
+    write(collect(paths), tmp_path / "campaign.nc")
+    own = fingerprint(["of 1.0", "of 2.0"])
+    xr.testing.assert_identical(read(tmp_path / "campaign.nc", own), collect(paths[::-1]))
+    with pytest.raises(BrokenResult, match=r"campaign.nc is the result of another scene, rubber or numerics"):
+        read(tmp_path / "campaign.nc", fingerprint(["of 1.0"]))
 
 
 @pytest.mark.parametrize("kinematics", ["small", "finite"])

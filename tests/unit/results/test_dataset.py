@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -360,7 +361,13 @@ def test_part_file_is_hidden_and_beside_its_target(
     partial: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     parts: list[Path] = []
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", lambda _, path, **__: (parts.append(path), path.touch()))
+    to_netcdf = xr.Dataset.to_netcdf
+
+    def watched(result: xr.Dataset, path: Path, **options: Any) -> None:
+        parts.append(path)
+        to_netcdf(result, path, **options)
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", watched)
     dataset.write(partial, tmp_path / "scene.nc")
     assert [part.parent for part in parts] == [tmp_path]
     assert parts[0].name.startswith(".scene.nc.")
@@ -394,7 +401,7 @@ def test_missing_file_is_refused(tmp_path: Path) -> None:
 
 def test_foreign_netcdf_is_refused(tmp_path: Path) -> None:
     foreign = tmp_path / "weather.nc"
-    xr.Dataset({"temperature": ("time", [1.0, 2.0])}).to_netcdf(foreign)
+    dataset.write(xr.Dataset({"temperature": ("time", [1.0, 2.0])}), foreign)
     with pytest.raises(BrokenResult, match=r"weather.nc is no result of rubfric: it lacks the attribute scene_digest"):
         dataset.read(foreign)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from itertools import product
 from pathlib import Path
 
@@ -96,7 +97,22 @@ def test_table_reads_back_with_six_digits(campaign: xr.Dataset, tmp_path: Path) 
     write_table(table, target)
     pd.testing.assert_frame_equal(pd.read_csv(target), table, rtol=1e-5, check_dtype=False)
     assert target.read_text().splitlines()[1].startswith("0.1,5,0.5,0.650001,0.00650001,3,")
-    assert [path.name for path in target.parent.iterdir()] == ["one.csv"]
+    assert sorted(path.name for path in target.parent.iterdir()) == [".one.csv.sha256", "one.csv"]
+    assert subprocess.run(["sha256sum", "-c", ".one.csv.sha256"], cwd=target.parent, check=False).returncode == 0
+
+
+def test_table_that_was_changed_is_refused(campaign: xr.Dataset, tmp_path: Path) -> None:
+    one, other = tmp_path / "one.csv", tmp_path / "other.csv"
+    for scale, path in ((1, one), (2, other)):
+        write_table(scale_table(campaign, scale), path)
+        read_table(path, [])
+    other.replace(one)
+    with pytest.raises(BrokenResult, match=r"one\.csv cannot be read: its content does not match its checksum: "):
+        read_table(one, [], signed=False)
+    (tmp_path / ".one.csv.sha256").unlink()
+    assert len(read_table(one, [], signed=False)) > 1
+    with pytest.raises(BrokenResult, match=r"one\.csv cannot be read: it has no checksum, .*; delete"):
+        read_table(one, [])
 
 
 def test_interrupted_write_keeps_the_older_table(
@@ -118,7 +134,7 @@ def test_interrupted_write_keeps_the_older_table(
 def test_words_and_gaps_of_a_table_are_read_as_they_are_written(tmp_path: Path) -> None:
     source = tmp_path / "ladder.csv"
     source.write_text('rung,error,covered,note\n0.10,0.5,True,\nnone,nan,False,"slow, but right"\n')
-    table = read_table(source, ["rung", "note", "absent"])
+    table = read_table(source, ["rung", "note", "absent"], signed=False)
     assert table["rung"].tolist() == ["0.10", "none"]
     assert table["error"].tolist()[0] == 0.5
     assert np.isnan(table["error"].tolist()[1])
@@ -131,5 +147,25 @@ def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> Non
     source = tmp_path / "broken.csv"
     if content is not None:
         source.write_bytes(content)
-    with pytest.raises(BrokenResult, match=r"broken\.csv is no readable table: .*; delete it and run again$"):
-        read_table(source, [])
+    with pytest.raises(BrokenResult, match=r"broken\.csv (is no|cannot be) read.*: .*; delete it and run again$"):
+        read_table(source, [], signed=False)
+
+
+def test_text_is_no_formula(tmp_path: Path) -> None:
+    texts = ["=1+2;x.csv", "+a", "-b", "@c", "-1.5", "+2e-3", "run", "'quoted", "1=2", ""]
+    table = pd.DataFrame({"run": texts, "number": -1.0, "mixed": [*texts[:-1], -3.5]})
+    write_table(table, tmp_path / "points.csv")
+    lines = (tmp_path / "points.csv").read_text().splitlines()[1:]
+    assert not [cell for line in lines for cell in line.split(",") if cell[:1] in set("=+-@") and not is_number(cell)]
+    assert lines[0] == "'=1+2;x.csv,-1,'=1+2;x.csv"
+    read = read_table(tmp_path / "points.csv", ["run"])
+    assert read["run"].fillna("").tolist() == texts
+    assert read["number"].tolist() == [-1.0] * len(texts)
+
+
+def is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True

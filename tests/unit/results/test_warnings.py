@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
 
 from rubfric.mechanics.finite.steady import FiniteSolution, solve_finite
 from rubfric.mechanics.small.steady import SmallSolution, solve_small
+from rubfric.mechanics.steady import resolution
 from rubfric.mechanics.steady.error import friction_error
-from rubfric.mechanics.steady.resolution import MOST_CELLS
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.results import warnings as warnings_module
 from rubfric.results.warnings import below_noise_warning, warnings
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
@@ -141,24 +144,35 @@ def test_accuracy_that_is_not_met_is_noted(solve: Solve) -> None:
     for accuracy, noted in ((0.99 * error, True), (1.01 * error, False)):
         asked = replace(solution, scene=replace(scene, numerics=replace(scene.numerics, accuracy=accuracy)))
         note = (
-            f"The accuracy asked for, {accuracy:.2%}, is not met: the estimated error is {error:.2%} after "
+            f"The accuracy asked for, {100.0 * accuracy:.2g} %, is not met: the estimated error is "
+            f"{100.0 * error:.2g} % after "
             f"{len(solution.meshes)} meshes; raise numerics.refinements."
         )
         assert warnings(asked, 0.0) == ([note] if noted else NOTHING)
 
 
 @pytest.mark.parametrize(
-    ("solve", "remedy"),
+    ("solve", "numerics", "remedy"),
     [
-        (small, "raise numerics.refinements or numerics.columns_max"),
-        (finite, f"finite strain takes no mesh of more than {MOST_CELLS} cells"),
+        (small, {"refinements": 0}, "raise numerics.refinements"),
+        (finite, {"refinements": 0}, "raise numerics.refinements"),
+        (small, {"columns_max": 64}, "raise numerics.columns_max"),
+        (finite, {"columns_max": 64}, "raise numerics.columns_max"),
+        (small, {"refinements": 12}, "small strain takes no mesh of more than 9,000 cells"),
+        (finite, {"refinements": 12}, "finite strain takes no mesh of more than 9,000 cells"),
+        (small, {"first_row": 4.0}, "lower numerics.first_row"),
     ],
 )
-def test_what_would_help_is_told(solve: Solve, remedy: str) -> None:
-    solution = solve(replace(SCENE, numerics=replace(COARSE, refinements=0)))
-    numerics = replace(SCENE.numerics, accuracy=1e-6, refinements=len(solution.meshes))
-    asked = replace(solution, scene=replace(SCENE, numerics=numerics))
-    assert [line for line in warnings(asked, 0.0) if line.endswith(f"meshes; {remedy}.")]
+def test_what_would_help_is_told(
+    monkeypatch: pytest.MonkeyPatch, solve: Solve, numerics: dict[str, Any], remedy: str
+) -> None:
+    for name, module in product(("MOST_CELLS", "MOST_SMALL_CELLS"), (resolution, warnings_module)):
+        monkeypatch.setattr(module, name, 9000)
+    solution = solve(replace(SCENE, numerics=replace(COARSE, **{"accuracy": 1e-6} | numerics)))
+    (line,) = (line for line in warnings(solution, 0.0) if "is not met" in line)
+    assert line.startswith("The accuracy asked for, 0.0001 %, is not met: the estimated error is ")
+    assert line.endswith(f" after {len(solution.meshes)} meshes; {remedy}.")
+    assert solution.block.columns * solution.block.rows <= 9000
 
 
 @pytest.mark.parametrize("solve", [small, finite])

@@ -74,12 +74,20 @@ def test_settings_come_from_the_yaml_file(simulated: Path, tmp_path: Path, capsy
     assert pd.read_csv(points)["pressure_MPa"].iloc[-1] == pytest.approx(2.0, rel=0.01)
 
 
+def test_known_load_is_an_option(simulated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    points = tmp_path / "points.csv"
+    assert run("reduce", simulated, "--area", 100, "--normal", 80, "-o", points) == 0
+    assert pd.read_csv(points)["pressure_MPa"].iloc[-1] == 0.8
+    assert "the column 'normal force (N)' is not used: normal gives the load" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "says"),
     [
         (["reduce", "absent.csv", "--area", 1], 2, "absent.csv"),
         (["reduce", "RUN"], 2, "area is not given, but pressure needs the nominal area of the rubber, mm²"),
         (["reduce", "RUN", "--area", -1], 2, "area is -1 mm², but must be greater than 0"),
+        (["reduce", "RUN", "--area", 1, "--normal", 0], 2, "normal is 0 N, but must be greater than 0"),
         (["reduce", "RUN", "--area", 1, "--traction", "rope"], 2, "traction is rope, so sled_mass must be given"),
         (["reduce", "RUN", "--columns", "absent.yaml"], 2, "absent.yaml"),
         (["simulate", "--pressure", 9, "--weight", 1, "-o", "x.csv"], 2, "pressure is 9 MPa, but must lie within"),

@@ -9,6 +9,9 @@ import pytest
 from rubfric.errors import InvalidInput
 from rubfric.rig.settings import Bearing, Settings, Tare, Windows, read_settings
 
+# A list of ten lists of ten lists of ..., in some 300 bytes
+_NAMES = zip("abcdefgh", "bcdefghi", strict=True)
+BOMB = "&a [1,1,1,1,1,1,1,1,1,1]" + "".join(f", &{to} [{','.join([f'*{of}'] * 10)}]" for of, to in _NAMES)
 GOOD = """
 columns: {time: Zeit, normal: Fz, traction: Fx, displacement: Weg}
 units: {normal: kN}
@@ -38,7 +41,7 @@ def test_file_is_read_whole(tmp_path: Path) -> None:
     assert found.bearing == Bearing(coefficient=0.004, file=str(tmp_path / "pull.csv"))
     assert found.windows == Windows(least_travel=2.0, least_samples=40)
     assert found.calibration == {"normal": 0.005, "traction": 0.0, "displacement": 0.001}
-    assert (found.area, found.traction, found.sled_mass, found.decimal) == (100.0, "rope", 5.0, "comma")
+    assert (found.area, found.traction, found.sled_mass, found.form.decimal) == (100.0, "rope", 5.0, "comma")
 
 
 def test_options_lie_above_the_file(tmp_path: Path) -> None:
@@ -62,12 +65,28 @@ def test_options_lie_above_the_file(tmp_path: Path) -> None:
         ("bearing: {force: 1, file: a.csv}", "bearing has both a force and a file"),
         ("bearing: {force: -1}", "bearing.force is -1, but must be at least 0"),
         ("columns: {load: Fz}", "columns has the unknown key 'load'; allowed are time, normal, "),
-        ("columns: {normal: 3}", "columns.normal is 3, but must be the heading of a column"),
+        ("columns: {normal: 0}", "columns.normal is 0, but must be the heading of a column, or its number from 1 on"),
         ("units: {normal: V}", "units.normal is 'V', but must be one of N, kN"),
         ("windows: {least_samples: 5}", "windows.least_samples is 5, but must be a whole number of at least 20"),
         ("windows: {drift: 2}", "windows.drift is 2, but must lie between 0 and 1, both excluded"),
         ("calibration: {normal: 5}", "calibration.normal is 5, but must be at most 1"),
         ("range: {displacement: 5}", "range has the unknown key 'displacement'; allowed are normal, traction"),
+        ("normal: 50 N", "normal is the text '50 N', but must be a number"),
+        ("normal: 50\ncolumns: {normal: Fz}", "normal is given, and columns.normal names a column"),
+        ("sampling: 50\ncolumns: {time: 1}", "sampling is given, and columns.time names a column"),
+        (
+            "tare: {traction: 1}",
+            r"tare holds traction alone, but must hold normal \(N\) too",
+        ),
+        ("headings: 0", "headings is 0, but must be a whole number of at least 1"),
+        ("encoding: klingon", "encoding is 'klingon', but must be the name of an encoding, such as utf-8"),
+        ("encoding: [base64]", "but must be the name of an encoding"),
+        ("missing: {a: 1}", "missing is {'a': 1}, but must be a list of words"),
+        *(
+            (f"{key}: [{BOMB}]", rf"^{key} (is|has) .{{1,90}}, but must|^columns is")
+            for key in ("area", "columns", "missing", "encoding")
+        ),
+        ("area: " + "[" * 1200 + "]" * 1200, "is not valid YAML: lists or mappings are nested too deeply"),
         ("- 1", r"is \[1\], but must hold the keys columns, units, area"),
         ("a: [", "is not valid YAML: "),
     ],

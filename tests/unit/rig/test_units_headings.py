@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
 from rubfric.rig.headings import recognise
+from rubfric.rig.textfile import TextTable
 from rubfric.rig.units import check_factor, factor, split_heading
 
 
@@ -20,7 +22,14 @@ from rubfric.rig.units import check_factor, factor, split_heading
         ("normal", "KN", 1e3),
         ("traction", "mN", 1e-3),
         ("traction", "MN", None),
-        ("normal", "kg", None),
+        ("normal", "kg", 9.80665),
+        ("traction", "g", 9.80665e-3),
+        ("traction", "lbf", 4.4482216152605),
+        ("normal", "Kilonewtons", 1e3),
+        ("time", "msec.", 1e-3),
+        ("displacement", "millimetres", 1.0),
+        ("displacement", "㎜", 1.0),
+        ("normal", "m", None),
         ("displacement", "m", 1e3),
         ("displacement", " mm ", 1.0),
         ("displacement", "um", 1e-3),
@@ -44,6 +53,8 @@ def test_factor_is_that_of_the_unit(quantity: str, unit: str, expected: float | 
         ("'Time'", ("Time", "")),
         ("Normal force", ("Normal force", "")),
         ("Position <µm>", ("Position", "µm")),
+        ("Fn [N] (filtered)", ("Fn (filtered)", "N")),
+        ("時間（s）", ("時間", "s")),
     ],
 )
 def test_heading_is_split_into_name_and_unit(heading: str, expected: tuple[str, str]) -> None:
@@ -51,31 +62,35 @@ def test_heading_is_split_into_name_and_unit(heading: str, expected: tuple[str, 
 
 
 def test_unknown_unit_is_refused_with_those_that_are_known() -> None:
-    with pytest.raises(InvalidInput, match=r"^units.time is 'fortnight', but must be one of s, sec, "):
+    with pytest.raises(InvalidInput, match=r"^units.time is 'fortnight', but must be one of s, ms, "):
         check_factor("units.time", "time", "fortnight")
 
 
-def columns(*headings: str, named: dict[str, str] | None = None, given: dict[str, str] | None = None) -> dict[str, int]:
-    found = recognise("run.csv", headings, [""] * len(headings), named or {}, given or {})
-    return {quantity: column.place for quantity, column in found.items()}
+def table(*headings: str) -> TextTable:
+    values = np.arange(4.0 * len(headings)).reshape(4, -1)
+    return TextTable((), headings, ("",) * len(headings), values, np.zeros(values.shape, dtype=bool), [], ())
+
+
+def columns(*headings: str, **named: str | int) -> dict[str, int]:
+    return {name: column.place for name, column in recognise("run.csv", table(*headings), named, {}).items()}
 
 
 def test_named_columns_come_first() -> None:
-    found = columns("t [s]", "K1 [N]", "K2 [N]", "Weg [mm]", "normal [N]", named={"normal": "K1", "traction": "K2 [N]"})
+    found = columns("t [s]", "K1 [N]", "K2 [N]", "Weg [mm]", "normal [N]", normal="K1", traction="K2 [N]")
     assert found == {"time": 0, "normal": 1, "traction": 2, "displacement": 3}
 
 
 def test_given_units_come_first() -> None:
     given = {"time": "ms", "normal": "kN", "traction": "N", "displacement": "m"}
-    found = recognise("run.csv", ["t", "Fn", "Ft", "x (mm)"], [""] * 4, {}, given)
+    found = recognise("run.csv", table("t", "Fn", "Ft", "x (mm)"), {}, given)
     assert [column.factor for column in found.values()] == [1e-3, 1e3, 1.0, 1e3]
 
 
 def test_one_column_for_two_quantities_is_refused() -> None:
     with pytest.raises(InvalidInput, match=r"has one column, 'A \(N\)', for normal and another quantity"):
-        columns("t (s)", "A (N)", "x (mm)", "z (mm)", named={"normal": "A", "traction": "A", "displacement": "x"})
+        columns("t (s)", "A (N)", "x (mm)", "z (mm)", normal="A", traction="A", displacement="x")
 
 
 def test_name_that_no_column_has_is_refused() -> None:
     with pytest.raises(InvalidInput, match=r"has no column named 'Fz' for normal; its columns are 't \(s\)', "):
-        columns("t (s)", "Fn (N)", "Ft (N)", "x (mm)", named={"normal": "Fz"})
+        columns("t (s)", "Fn (N)", "Ft (N)", "x (mm)", normal="Fz")

@@ -137,8 +137,9 @@ def test_exception_fails_the_job_with_its_sentence_and_log(place: Workplace) -> 
 
 
 def test_early_exit_fails_the_job(place: Workplace) -> None:
-    with pytest.raises(JobFailed, match=r"one.log\)$"):
+    with pytest.raises(JobFailed, match=r"the job's process ended with exit status 1 before .*one.log\)$"):
         place.run("one", act="exit")
+    assert place.log("one").read_text().endswith("gone early\n")
     assert place.run("two", number=2).read_text().startswith("2 ")
 
 
@@ -237,6 +238,23 @@ def test_workers_leave_the_main_module_alone_and_end_with_it(place: Workplace) -
         time.sleep(0.01)
     assert not is_running(worker)
     assert (place.folder / "runs.txt").read_text() == "run"
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("closed", ["<&- >&- 2>&-", ">&-", "> /dev/full 2> /dev/full"])
+def test_jobs_need_no_standard_files(place: Workplace, closed: str) -> None:
+    master = place.folder / "master.py"
+    master.write_text(
+        "from rubfric.runner import jobs\n"
+        f"for name in ('one', 'two'):\n"
+        f"    jobs.run({str(place.script)!r}, {str(place.folder)!r} + f'/logs/{{name}}.log', output=name + '.txt')\n"
+    )
+    command = f"exec {sys.executable} {master} {closed}"
+    done = subprocess.run(["sh", "-c", command], cwd=place.folder, check=False, timeout=60)
+    assert done.returncode == 0
+    for name in ("one", "two"):
+        assert place.log(name).read_text() == "number 0\non stderr\n"
+        assert (place.folder / f"{name}.txt").exists()
 
 
 def is_running(process: int) -> bool:
