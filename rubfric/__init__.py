@@ -4,7 +4,7 @@ Three lines answer for one scene::
 
     import rubfric
 
-    campaign = rubfric.load("config/config.yaml")
+    campaign = rubfric.load()
     result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
 
 Names are imported when they are first used, so that ``import rubfric`` costs next to nothing.
@@ -13,7 +13,20 @@ Names are imported when they are first used, so that ``import rubfric`` costs ne
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
+    from rubfric.config.campaign import Campaign, load
+    from rubfric.errors import BrokenResult, InvalidInput, NotConverged, NotWritten, RubfricError
+    from rubfric.marching import march
+    from rubfric.results.dataset import write
+    from rubfric.road.sine import SineScale
+    from rubfric.road.waves import WaveRoad
+    from rubfric.rubber.material import Material
+    from rubfric.scene.numerics import Numerics
+    from rubfric.scene.procedure import Procedure
+    from rubfric.scene.scene import Scene
+    from rubfric.simulation import simulate
 
 __version__ = "0.1.0"
 
@@ -23,18 +36,38 @@ _HOMES = {
     "InvalidInput": "errors",
     "Material": "rubber.material",
     "NotConverged": "errors",
+    "NotWritten": "errors",
     "Numerics": "scene.numerics",
     "RubfricError": "errors",
     "Scene": "scene.scene",
-    "SineScale": "road.sine",
     "Procedure": "scene.procedure",
+    "SineScale": "road.sine",
+    "WaveRoad": "road.waves",
     "load": "config.campaign",
     "march": "marching",
     "simulate": "simulation",
     "write": "results.dataset",
 }
 
-__all__ = ["__version__", *sorted(_HOMES)]
+__all__ = [
+    "BrokenResult",
+    "Campaign",
+    "InvalidInput",
+    "Material",
+    "NotConverged",
+    "NotWritten",
+    "Numerics",
+    "Procedure",
+    "RubfricError",
+    "Scene",
+    "SineScale",
+    "WaveRoad",
+    "__version__",
+    "load",
+    "march",
+    "simulate",
+    "write",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -18,6 +18,11 @@ import numpy as np
 from rubfric.errors import InvalidInput
 
 SIGNIFICANT_DIGITS = 12
+# Symbols of the field, and the keys that they stand for.
+_SYNONYMS = {
+    **{"E": "youngs_modulus", "nu": "poissons_ratio", "g_i": "shear_fractions", "tau_i": "relaxation_times"},
+    **{"k_i": "bulk", "lambda": "wavelength", "k": "wavenumber", "a": "amplitude", "rho": "density"},
+}
 # What a message shows of a wrong value, which may be nested without end.
 _MOST_SHOWN = 80
 _SHORT = reprlib.Repr()
@@ -60,13 +65,17 @@ def known_keys(key: str, given: Any, allowed: Iterable[str], required: Iterable[
         raise InvalidInput(f"{key} is {shown(given)}, but must hold the keys {', '.join(names)}")
     for name in given:
         if name not in names:
-            raise InvalidInput(
-                f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{suggestion(name, names)}"
-            )
+            raise InvalidInput(unknown_key(key, name, names))
     for name in required:
         if name not in given:
             raise InvalidInput(f"{key} lacks the key {name!r}")
     return given
+
+
+def unknown_key(key: str, name: Any, allowed: Iterable[str]) -> str:
+    """Return what to say of a key that is none of those allowed."""
+    names = list(allowed)
+    return f"{key} has the unknown key {shown(name)}; allowed are {', '.join(names)}{suggestion(name, names)}"
 
 
 def shown(value: Any) -> str:
@@ -99,5 +108,7 @@ def written(value: float) -> str:
 def suggestion(value: Any, words: list[str]) -> str:
     """Return the word that may have been meant: one that ``value`` has as a part, or else the nearest in spelling."""
     text = shown(value).strip("'\"")
+    if (meant := _SYNONYMS.get(text)) in words:
+        return f" (did you mean {meant}?)"
     close = [word for word in words if word in text.split("_")] or difflib.get_close_matches(text, words, n=1)
     return f" (did you mean {close[0]}?)" if close else ""

@@ -8,11 +8,15 @@ from pathlib import Path
 
 import rubfric
 from rubfric.config import campaign as campaigns
-from rubfric.errors import InvalidInput, RubfricError
+from rubfric.config.begin import begin
+from rubfric.config.default import base_configs
+from rubfric.config.plausibility import check_plausible
+from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
 from rubfric.scene.procedure import STARTS
 from rubfric.scene.scene import KINEMATICS, Scene
+from rubfric.streams import patient_output
 
 _EXAMPLE = """\
 example:
@@ -21,14 +25,27 @@ example:
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
   rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
+  rubfric init mine.yaml
 
-The rubber, the road and the numerics come from config/config.yaml, and what --config lays over it.
-For whole campaigns run snakemake in the project's folder.
+The rubber, the road and the numerics are the paper's, or those of config/config.yaml in the working folder, with what
+--config lays over them. For whole campaigns run snakemake in the project's folder.
+
+exit status: 0 done, also where nobody reads the output to its end; 1 no result, since a scene did not converge, a file
+is damaged, or nothing could be written; 2 wrong input; 130 interrupted
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; return 0, 1 where the scene has no result, or 2 where the input is wrong."""
+    """Run the command line and return the exit status, which the help explains."""
+    try:
+        with patient_output():
+            return _run(arguments)
+    except NotWritten as error:
+        print(f"rubfric: {error}", file=sys.stderr)
+        return 1
+
+
+def _run(arguments: list[str] | None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     if not hasattr(options, "run"):
@@ -42,6 +59,9 @@ def main(arguments: list[str] | None = None) -> int:
     except (RubfricError, OSError) as error:
         print(f"rubfric: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("rubfric: interrupted", file=sys.stderr)
+        return 130
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -81,6 +101,13 @@ def _parser() -> argparse.ArgumentParser:
         "--restart", type=Path, metavar="FILE", help="go on from this file where it exists, and leave the state in it"
     )
     march.set_defaults(run=_march)
+    init = commands.add_parser(
+        "init",
+        help="write a config of your own rubber, road and grid to begin with",
+        description="Write a config with comments and units, for snakemake -j2 --configfile FILE.",
+    )
+    init.add_argument("file", metavar="FILE", help="config to write, mine.yaml say; a file that exists is left alone")
+    init.set_defaults(run=_init)
     add_rig(commands, _configs)
     return parser
 
@@ -132,6 +159,8 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     campaign = campaigns.load(*_configs(options.config or []))
     names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy")
     scene = campaign.scene(**{name: getattr(options, name) for name in names})
+    for sentence in check_plausible(scene.material, campaign.road, [scene.velocity], [scene.pressure]):
+        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene
@@ -153,7 +182,7 @@ def _simulate(options: argparse.Namespace) -> int:
 
 def _march(options: argparse.Namespace) -> int:
     campaign, scene = _read(options)
-    arguments = campaign.transient.procedure()
+    arguments = campaign.procedure()
     names = ("start", "columns", "steps_per_wavelength", "wavelengths")
     arguments |= {name: getattr(options, name) for name in names if getattr(options, name) is not None}
     from rubfric.marching import march
@@ -172,20 +201,15 @@ def _march(options: argparse.Namespace) -> int:
     return 0
 
 
+def _init(options: argparse.Namespace) -> int:
+    begin(options.file)
+    print(f"{options.file} is written: edit it, then run   snakemake -j2 --configfile {options.file}")
+    return 0
+
+
 def _configs(given: list[Path]) -> list[Path]:
-    """Return the configs to lay over one another: the project's, where there is one, then those given."""
-    project = default_config()
-    if project is None and not given:
-        raise FileNotFoundError(
-            "there is no config/config.yaml here: run in the project's folder, or give --config FILE"
-        )
-    return [*([project] if project else []), *given]
-
-
-def default_config() -> Path | None:
-    """Return config/config.yaml of the working folder, else that of the project which the package belongs to."""
-    places = (Path(), Path(__file__).resolve().parents[1])
-    return next((path for place in places if (path := place / "config/config.yaml").exists()), None)
+    """Return the configs to lay over one another: those that all are laid over, then those given."""
+    return [*base_configs(), *given]
 
 
 if __name__ == "__main__":

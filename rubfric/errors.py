@@ -8,7 +8,25 @@ class RubfricError(Exception):
 
 
 class InvalidInput(RubfricError, ValueError):
-    """A value that no model can take; the message names the key, the value and what is allowed."""
+    """A value that no model can take; the message names the key, the value and what is allowed.
+
+    Parameters
+    ----------
+    *faults : str
+        One sentence, or several on one config, which the message numbers.
+    """
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """The sentences, one for each fault."""
+        return self.args
+
+    def __str__(self) -> str:
+        if len(self.args) < 2:
+            return super().__str__()
+        return f"there are {len(self.args)} faults" + "".join(
+            f"\n  {place}. {fault}" for place, fault in enumerate(self.args, 1)
+        )
 
 
 class NotConverged(RubfricError, RuntimeError):

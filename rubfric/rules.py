@@ -6,20 +6,21 @@ dataclasses of a scene as in the models of the config.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, get_type_hints
+from typing import Any, ClassVar, get_type_hints
 
 from rubfric.checks import number, shown, suggestion, with_unit
 from rubfric.errors import InvalidInput
 
 # Bounds on every quantity that must be positive: their products stay far from overflow and underflow.
 SMALLEST, LARGEST = 1e-30, 1e30
-# Words become part of file names, which have room for 255 bytes; a path has 4096, the outputs take their share of it.
-LONGEST_WORD, LONGEST_NAME, LONGEST_PATH = 100, 255, 1000
+# Words become part of file names.
+LONGEST_WORD = 100
 _LETTERS = "[A-Za-z0-9_-]+"
+# Faults of one list that are named.
+_MOST_FAULTS = 5
 # Where a rule does not know its key, which pydantic knows: see ``rubfric.config.entries``.
 HERE = "\0"
 
@@ -35,6 +36,8 @@ class Rule:
     """
 
     about: str = ""
+    # What a list of such values is of.
+    kind_of_item: ClassVar[str] = "number"
 
     def check(self, key: str, value: Any) -> Any:
         """Return ``value`` in canonical form.
@@ -170,6 +173,8 @@ class Choice(Rule):
 class Word(Rule):
     """A word that can be part of a file name."""
 
+    kind_of_item: ClassVar[str] = "name"
+
     def check(self, key: str, value: Any) -> str:
         """Return ``value`` if it is such a word."""
         if (
@@ -186,37 +191,6 @@ class Word(Rule):
 
     def _schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_LETTERS}$", "maxLength": LONGEST_WORD}
-
-
-@dataclass(frozen=True)
-class Place(Rule):
-    """The path of a file or a folder.
-
-    Parameters
-    ----------
-    kind : {"file", "folder"}
-    optional : bool
-        Whether None may take its place.
-    """
-
-    kind: str = "file"
-    optional: bool = False
-
-    def check(self, key: str, value: Any) -> str | None:
-        """Return a path that the system can take, that of a folder without a slash at its end."""
-        if value is None and self.optional:
-            return None
-        if not isinstance(value, str) or not value.strip() or not value.isprintable() or set(value) & set("{}"):
-            raise InvalidInput(f"{key} is {shown(value)}, but must be the path of a {self.kind}, without braces")
-        if len(os.fsencode(value)) > LONGEST_PATH or max(map(len, os.fsencode(value).split(b"/"))) > LONGEST_NAME:
-            raise InvalidInput(
-                f"{key} is {shown(value)}, but must have at most {LONGEST_PATH} letters, {LONGEST_NAME} a name"
-            )
-        return (value.rstrip("/") or "/") if self.kind == "folder" else value
-
-    def _schema(self) -> dict[str, Any]:
-        kind = ["string", "null"] if self.optional else "string"
-        return {"type": kind, "minLength": 1, "maxLength": LONGEST_PATH}
 
 
 @dataclass(frozen=True)
@@ -241,12 +215,20 @@ class Items(Rule):
 
     def check(self, key: str, value: Any) -> tuple[Any, ...]:
         """Return the items as a tuple, each in canonical form; a bad one is named by its place."""
-        of = {Place: "file", Word: "name"}.get(type(self.each), "number")
+        of = self.each.kind_of_item
         if not isinstance(value, (list, tuple)):
             raise InvalidInput(f"{key} is {shown(value)}, but must be a list of {of}s")
         if len(value) < self.least:
             raise InvalidInput(f"{key} is empty, but must hold at least one {of}")
-        items = [self.each.check(f"{key}[{place}]", item) for place, item in enumerate(value)]
+        items: list[Any] = []
+        faults: list[str] = []
+        for place, item in enumerate(value):
+            try:
+                items.append(self.each.check(f"{key}[{place}]", item))
+            except InvalidInput as error:
+                faults += error.faults
+        if faults:
+            raise InvalidInput(*faults[:_MOST_FAULTS])
         if self.distinct and len(set(items)) < len(items):
             again = next(place for place, item in enumerate(items) if item in items[:place])
             what = with_unit(items[again], getattr(self.each, "unit", ""))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import xarray as xr
@@ -62,8 +62,14 @@ MECHANICS = {
 }
 
 
-def simulate(scene: Scene) -> xr.Dataset:
+def simulate(scene: Scene, *, accuracy: float | None = None) -> xr.Dataset:
     """Slide the rubber block of a scene steadily over its road and return all results.
+
+    Parameters
+    ----------
+    scene : Scene
+    accuracy : float, optional
+        Relative accuracy of friction, instead of that of the scene's numerics.
 
     Returns
     -------
@@ -81,12 +87,14 @@ def simulate(scene: Scene) -> xr.Dataset:
     Examples
     --------
     >>> import rubfric
-    >>> campaign = rubfric.load("config/config.yaml")
+    >>> campaign = rubfric.load()
     >>> result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
     >>> float(result.friction_coefficient)  # doctest: +SKIP
     0.206
     """
     started = time.perf_counter()
+    if accuracy is not None:
+        scene = replace(scene, numerics=replace(scene.numerics, accuracy=accuracy))
     decision = decide_solvable(scene)
     finite = decision.kinematics == "finite"
     remedy = finer_mesh(finite)

@@ -13,16 +13,40 @@ from itertools import product
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.models import AspectStudy, ClaimsChoice, Config, FigureChoice, RigChoice, TransientChoice
+from rubfric.config.default import over_default
+from rubfric.config.models import (
+    AspectStudy,
+    ClaimsChoice,
+    Config,
+    FigureChoice,
+    TransientChoice,
+    wavenumber,
+)
 from rubfric.config.multiscale import Multiscale
-from rubfric.config.overlay import overlaid
-from rubfric.config.references import check_references, numerics_of, scale_number
+from rubfric.config.overlay import EXTRAS, overlaid
+from rubfric.config.plausibility import check_area, check_plausible
+from rubfric.config.references import (
+    figures_of,
+    march_of,
+    numerics_of,
+    read_whole,
+    readings_of,
+    rig_of,
+    scale_number,
+    study_of,
+)
+from rubfric.config.rig import RigChoice
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 from rubfric.rules import Choice
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
+
+
+def _span(values: tuple[float, ...]) -> str:
+    """Return the first and the last of ascending numbers, or the only one."""
+    return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
 
 
 @dataclass(frozen=True)
@@ -53,11 +77,13 @@ class Campaign:
         MPa, ascending.
     aspect : float
         Height over width of the grid's blocks.
-    aspect_study : AspectStudy
-    transient : TransientChoice
+    aspect_study : AspectStudy or None
+        None where there is none; so for the following.
+    transient : TransientChoice or None
     figures : FigureChoice
-    rig : RigChoice
-    claims : ClaimsChoice
+        What the figures show, out of the grid.
+    rig : RigChoice or None
+    claims : ClaimsChoice or None
     numerics : Numerics
     presets : dict of str to Numerics
         Every preset, by name.
@@ -74,41 +100,37 @@ class Campaign:
     velocities: tuple[float, ...]
     pressures: tuple[float, ...]
     aspect: float
-    aspect_study: AspectStudy
-    transient: TransientChoice
+    aspect_study: AspectStudy | None
+    transient: TransientChoice | None
     figures: FigureChoice
-    rig: RigChoice
-    claims: ClaimsChoice
+    rig: RigChoice | None
+    claims: ClaimsChoice | None
     numerics: Numerics
     presets: dict[str, Numerics]
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any]) -> Campaign:
-        """Check a config whole and read it; InvalidInput says in one sentence what is wrong with it."""
-        given = Config.read("", config)
-        materials = {name: Material(name=name, **entry.given()) for name, entry in given.rubbers.items()}
-        roads = {name: [dict(scale) for scale in entry] for name, entry in given.roads.items()}
-        scales = roads[Choice(words=roads).check("road", given.road)]
-        phases = tuple(scale.pop("phase") for scale in scales)
-        road = tuple(SineScale(**scale) for scale in scales)
-        check_references(given, len(road))
+        """Check a config whole and read it; InvalidInput says in a sentence each what is wrong with it."""
+        given = read_whole(config)
+        scales = [dict(scale) for scale in given.roads[given.road]]
+        road = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
         numerics, presets = numerics_of(given)
         campaign = cls(
             results=given.results,
-            material=materials[Choice(words=materials).check("rubber", given.rubber)],
+            material=Material(name=given.rubber, **given.rubbers[given.rubber].given()),
             road_name=given.road,
             road=road,
-            phases=phases,
+            phases=tuple(scale["phase"] for scale in scales),
             plane=given.plane,
             kinematics=given.kinematics,
             multiscale=Multiscale(given.multiscale, given.multiscale_preset, given.phases.draws, given.phases.seed),
             velocities=given.grid.velocities,
             pressures=given.grid.pressures,
             aspect=given.grid.aspect,
-            aspect_study=given.aspect_study,
-            transient=given.transient,
-            figures=given.figures,
-            rig=given.rig,
+            aspect_study=study_of(given.aspect_study, given.grid),
+            transient=march_of(given.transient, given.grid),
+            figures=figures_of(given.figures, given.grid),
+            rig=rig_of(given.rig, given.grid),
             claims=given.claims,
             numerics=numerics,
             presets=presets,
@@ -217,18 +239,21 @@ class Campaign:
         for scale, velocity, pressure in product(self.scales, self.velocities, self.pressures):
             yield self.scene(scale, velocity, pressure)
         study = self.aspect_study
+        if study is None:
+            return
         for scale, velocity, pressure, aspect in product(study.scales, self.velocities, study.pressures, study.aspects):
             yield self.scene(scale, velocity, pressure, aspect)
 
     def reading(self, name: str) -> Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
-        other = self.claims.readings[Choice(words=self.claims.readings).check("reading", name)]
+        readings = readings_of(self.claims)
+        other = readings[Choice(words=readings).check("reading", name)]
         return replace(
             self,
             material=other.rubber(self.material),
             plane=other.plane or self.plane,
             kinematics=other.kinematics or self.kinematics,
-            numerics=self.presets[self.claims.preset],
+            numerics=self.presets[self.claims.preset] if self.claims else self.numerics,
         )
 
     def words(self) -> str:
@@ -236,17 +261,39 @@ class Campaign:
         rubber, numerics = self.material, self.numerics
         return (
             f"Rubber {rubber.name} ({rubber.moduli.replace('_', '-')} modulus, {rubber.bulk} bulk) on road "
-            f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} scales, "
-            f"{checks.written(self.velocities[0])} to {checks.written(self.velocities[-1])} mm/s, "
-            f"{checks.written(self.pressures[0])} to {checks.written(self.pressures[-1])} MPa; friction to "
-            f"{100.0 * numerics.accuracy:g} %."
+            f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} "
+            f"scale{'s' if len(self.road) > 1 else ''}, {_span(self.velocities)} mm/s, {_span(self.pressures)} MPa; "
+            f"friction to {100.0 * numerics.accuracy:g} %."
         )
 
     def marches(self) -> dict[str, Scene]:
         """Return the scenes that are marched in time, by name."""
         chosen = self.transient
+        if chosen is None:
+            return {}
         scenes = (self.scene(chosen.scale, velocity, chosen.pressure) for velocity in chosen.velocities)
         return {scene.name: scene for scene in scenes}
+
+    def procedure(self) -> dict[str, Any]:
+        """Return the arguments of the ``rubfric.scene.procedure.Procedure`` by which scenes are marched."""
+        return (self.transient or TransientChoice()).procedure()
+
+    def unlikely(self) -> list[str]:
+        """Return what is unlikely of rubber, road and grid, with the unit that may have been meant.
+
+        Raises
+        ------
+        InvalidInput
+            For what cannot be meant.
+        """
+        if self.rig:
+            check_area("rig.virtual.area", self.rig.virtual.area)
+        return check_plausible(self.material, self.road, self.velocities, self.pressures)
+
+    def choices(self) -> dict[str, Any]:
+        """Return, as a config has them, the folder of the results and the sections that depend on the grid."""
+        sections = {name: getattr(self, name) for name in EXTRAS}
+        return {"results": self.results} | {name: one and one.model_dump() for name, one in sections.items()}
 
     def field_scenes(self) -> dict[str, Scene]:
         """Return the scenes whose fields are drawn, by name; pressure by pressure."""
@@ -258,16 +305,24 @@ class Campaign:
         return {scene.name: scene for scene in scenes}
 
 
-def load(*paths: str | os.PathLike[str]) -> Campaign:
-    """Read one or more YAML configs, each laid over the ones before, and check the whole.
+def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
+    """Read one or more configs, each laid over the ones before, and check the whole.
 
-    The first must be complete; ``load("config/config.yaml", "mine.yaml")`` needs only the changes in mine.yaml.
+    A first one that is not complete is laid over the paper's campaign, which the package holds: ``load("mine.yaml")``
+    and ``load({"plane": "strain"})`` need the changes only, and ``load()`` is the paper's.
+
+    Parameters
+    ----------
+    *configs : path-like or mapping
+        YAML files, or what such a file holds, as a dict.
 
     Raises
     ------
     InvalidInput
-        For a file that is no YAML, or a config that is wrong.
+        For a file that is no YAML, a config that is wrong, or numbers far from any rubber, road or load.
     FileNotFoundError
         For a missing file.
     """
-    return Campaign.from_config(overlaid(paths, Config.model_fields))
+    campaign = Campaign.from_config(overlaid(over_default(*configs), Config.model_fields))
+    campaign.unlikely()
+    return campaign

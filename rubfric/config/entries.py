@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import MappingProxyType
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError, model_validator
 
-from rubfric.checks import known_keys, shown
+from rubfric.checks import known_keys, shown, unknown_key
 from rubfric.errors import InvalidInput
-from rubfric.rules import HERE, Rule, Word, rules
+from rubfric.rules import HERE, Items, Number, Rule, Word, rules
 
 
 class Entry(BaseModel):
@@ -22,10 +24,17 @@ class Entry(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _known(cls, given: Any) -> Any:
-        if isinstance(given, cls):
-            return given
-        required = [name for name, field in cls.model_fields.items() if field.is_required()]
-        return dict(known_keys(HERE, given, cls.model_fields, required))
+        """Let pydantic find every unknown key; what to say of it takes the place of its value."""
+        if not isinstance(given, Mapping):
+            return given if isinstance(given, cls) else known_keys(HERE, given, cls.model_fields)
+        known = {name: value for name, value in given.items() if name in cls.model_fields}
+        others = [name for name in given if name not in known]
+        return known | {f"{HERE}{place}": _Unknown(cls.unknown(name)) for place, name in enumerate(others)}
+
+    @classmethod
+    def unknown(cls, name: Any) -> str:
+        """Return what to say of a key that there is not."""
+        return unknown_key(HERE, name, cls.model_fields)
 
     @classmethod
     def read(cls, key: str, given: Any) -> Self:
@@ -40,19 +49,67 @@ class Entry(BaseModel):
         Raises
         ------
         InvalidInput
-            One sentence on the first wrong entry, in the order of the keys.
+            One sentence on every wrong entry, in the order of the keys.
         """
         try:
             return cls.model_validate(given)
         except ValidationError as error:
-            first = error.errors(include_url=False, include_input=False)[0]
-            path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in first["loc"])
-            at = f"{key}{path}".lstrip(".") or "config"
-            raise InvalidInput(str(first["ctx"]["error"]).replace(HERE, at)) from None
+            raise InvalidInput(*faults(key, error)) from None
+
+    @classmethod
+    def sound_sections(cls, given: Any) -> dict[str, Any]:
+        """Return those entries of a mapping that are right by themselves, read."""
+        sections = {}
+        for name in cls.model_fields if isinstance(given, Mapping) else ():
+            if name in given:
+                with contextlib.suppress(ValidationError):
+                    sections[name] = _adapter(cls, name).validate_python(given[name])
+        return sections
 
     def given(self) -> dict[str, Any]:
         """Return the entries that were given, without the defaults of others."""
         return self.model_dump(exclude_unset=True)
+
+
+@dataclass(frozen=True)
+class _Unknown:
+    """What to say of an unknown key."""
+
+    says: str
+
+
+@cache
+def _adapter(model: type[BaseModel], name: str) -> TypeAdapter[Any]:
+    """Return what reads one entry of a model."""
+    field = model.model_fields[name]
+    read: Any = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    return TypeAdapter(read)
+
+
+def faults(key: str, error: ValidationError) -> list[str]:
+    """Return a sentence for each error that pydantic found.
+
+    Parameters
+    ----------
+    key : str
+        Where the mapping is in the config; nothing for the whole config.
+    error : pydantic.ValidationError
+    """
+    found = []
+    for one in error.errors(include_url=False):
+        *way, last = one["loc"] or ("",)
+        if one["type"] == "missing":
+            found.append(f"{_place(key, way)} lacks the key {last!r}")
+        elif one["type"] == "extra_forbidden":
+            found.append(one["input"].says.replace(HERE, _place(key, way)))
+        else:
+            found += [fault.replace(HERE, _place(key, one["loc"])) for fault in one["ctx"]["error"].faults]
+    return found
+
+
+def _place(key: str, way: Iterable[Any]) -> str:
+    path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in way)
+    return f"{key}{path}".lstrip(".") or "config"
 
 
 @dataclass(frozen=True)
@@ -128,3 +185,16 @@ def keys(source: type, names: Iterable[str], defaults: Mapping[str, Any] = Mappi
         Defaults of keys that may be left out, by name; the others are required.
     """
     return {name: (Annotated[Any, rules(source)[name]], defaults.get(name, ...)) for name in names}
+
+
+def grid_values(about: str, unit: str = "") -> Items:
+    """Return the rule of a list of positive numbers, no two alike.
+
+    Parameters
+    ----------
+    about : str
+        What the key means.
+    unit : str
+        Nothing for dimensionless numbers.
+    """
+    return Items(about, Number(unit=unit))

@@ -7,35 +7,34 @@ defined by its own classes (``Numerics``, ``Procedure``, ``Material``, ``SineSca
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import create_model, model_validator
 
-from rubfric.config.entries import Catalogue, Entry, Named, Scales, keys
+from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
 from rubfric.config.multiscale import WAYS
+from rubfric.config.place import Place
+from rubfric.config.rig import RigChoice
+from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
-from rubfric.rules import HERE, Choice, Integer, Items, Number, Place, Word, rules
+from rubfric.rules import HERE, Choice, Integer, Items, Number, Word, rules
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
 from rubfric.scene.procedure import Procedure, check_wavelengths
 from rubfric.scene.scene import KINEMATICS
 
-# Where the sensor of traction sits.
-TRACTIONS = ("rubber", "rope")
 # The name under which the campaign itself is judged, beside its readings.
 AS_CONFIGURED = "campaign"
-
-
-def _grid(about: str, unit: str = "") -> Items:
-    return Items(about, Number(unit=unit))
 
 
 class Grid(Entry):
     """Every scale of the road is run at every one of these velocities and pressures."""
 
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures on the top of the block.", "MPa")]
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")]
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures on the top of the block.", "MPa")]
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
 
 
@@ -52,24 +51,24 @@ class PhasesChoice(Entry):
 class AspectStudy(Entry):
     """Height-to-width ratios to compare, at the velocities of the grid."""
 
-    aspects: Annotated[tuple[float, ...], _grid("Height-to-width ratios.")]
+    aspects: Annotated[tuple[float, ...], grid_values("Height-to-width ratios.")]
     scales: Annotated[
         tuple[int, ...], Items("Numbers of the scales of the road to study, 1 being the first under roads.", Integer())
-    ]
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures of the study.", "MPa")]
+    ] = (1,)
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures of the study.", "MPa")] = ()
 
 
 class TransientChoice(Entry):
     """Press and slide in time, for Fig. 5, at the aspect of the grid."""
 
-    scale: Annotated[int, Integer("Number of the scale.")]
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds.", "mm/s")]
-    pressure: Annotated[float, Number("Nominal pressure.", "MPa")]
-    start: Annotated[str, rules(Procedure)["start"]]
-    columns: Annotated[int, rules(Procedure)["columns"]]
-    steps_per_wavelength: Annotated[int, rules(Procedure)["steps_per_wavelength"]]
-    wavelengths: Annotated[int, rules(Procedure)["wavelengths"]]
-    saturation: Annotated[float, replace(rules(Procedure)["saturation"], low=1e-6, high=0.5)]
+    scale: Annotated[int, Integer("Number of the scale.")] = 1
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")] = ()
+    pressure: Annotated[float, Number("Nominal pressure.", "MPa")] = 0.0
+    start: Annotated[str, rules(Procedure)["start"]] = "pressed"
+    columns: Annotated[int, rules(Procedure)["columns"]] = 64
+    steps_per_wavelength: Annotated[int, rules(Procedure)["steps_per_wavelength"]] = 64
+    wavelengths: Annotated[int, rules(Procedure)["wavelengths"]] = 12
+    saturation: Annotated[float, replace(rules(Procedure)["saturation"], low=1e-6, high=0.5)] = 0.01
 
     @model_validator(mode="after")
     def _steps(self) -> Self:
@@ -84,9 +83,9 @@ class TransientChoice(Entry):
 class Fields(Entry):
     """Scenes whose fields are drawn, Figs 2 and 4."""
 
-    scale: Annotated[int, Integer("Number of the scale.")]
-    velocities: Annotated[tuple[float, ...], _grid("Sliding speeds, out of the grid's.", "mm/s")]
-    pressures: Annotated[tuple[float, ...], _grid("Nominal pressures, out of the grid's.", "MPa")]
+    scale: Annotated[int, Integer("Number of the scale.")] = 1
+    velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds, out of the grid's.", "mm/s")] = ()
+    pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures, out of the grid's.", "MPa")] = ()
 
 
 class FigureChoice(Entry):
@@ -94,61 +93,8 @@ class FigureChoice(Entry):
 
     total_pressure: Annotated[
         float, Number("Nominal pressure of Fig. 7, the total over the scales; one of the grid's.", "MPa")
-    ]
-    fields: Fields
-
-
-class VirtualRig(Entry):
-    """Virtual rig, whose weights the program chooses so that speeds span what was simulated."""
-
-    area: Annotated[float, Number("Nominal area of the rubber.", "mm²")]
-    traction: Annotated[
-        str,
-        Choice(
-            "Where the sensor of traction sits, at the rubber or in the rope, where it also reads the drag of the "
-            "bearings and what accelerates the sled.",
-            TRACTIONS,
-        ),
-    ]
-    sled_mass: Annotated[float, Number("Mass of the sled with the road.", "kg")]
-    heaviest_weight: Annotated[float, Number("Heaviest weight that may hang from the rope.", "kg")]
-    travel: Annotated[float, Number("Travel of the sled.", "mm")]
-    bearing_force: Annotated[float, Number("Drag of the bearings without a load.", "N", low=0.0)]
-    bearing_coefficient: Annotated[float, Number("Drag of the bearings per normal force.", low=0.0)]
-    force_noise: Annotated[float, Number("Standard deviation of the noise of both forces.", "N", low=0.0)]
-    displacement_noise: Annotated[float, Number("Standard deviation of the noise of the displacement.", "mm", low=0.0)]
-    displacement_step: Annotated[float, Number("Step of the readings of the displacement; 0 for none.", "mm", low=0.0)]
-    sampling: Annotated[
-        float, Number("Samples per second; slow runs are sampled more slowly.", "Hz", low=100.0, high=1e6)
-    ]
-    seed: Annotated[int, Integer("Seed of the noise.", 0, 2**31)]
-
-
-class RigChoice(Entry):
-    """Test rig of Figs 8 and 9, measured or virtual."""
-
-    data: Annotated[
-        tuple[str, ...],
-        Items(
-            "Files of measured runs, CSV tables of time, normal force, traction and displacement; while there are "
-            "none, a virtual rig measures what was simulated.",
-            Place(),
-            least=0,
-            ascending=False,
-        ),
-    ]
-    columns: Annotated[
-        str | None,
-        Place(
-            "YAML file that names their columns and the area of the rubber, see docs/rig.md; null where there is none.",
-            optional=True,
-        ),
-    ]
-    pressures: Annotated[
-        tuple[float, ...], _grid("Nominal pressures at which Fig. 9 shows friction over speed.", "MPa")
-    ]
-    speeds: Annotated[tuple[float, ...], _grid("Speeds at which Fig. 9 shows friction over pressure.", "mm/s")]
-    virtual: VirtualRig
+    ] = 0.0
+    fields: Fields = Fields()
 
 
 class Reading(Entry):
@@ -200,6 +146,46 @@ class ClaimsChoice(Entry):
     ]
 
 
+_WAVE = ("wavenumber", "wavelength")
+
+
+def wavenumber(scale: Mapping[str, Any]) -> float:
+    """Return the wavenumber of a scale, rad/mm, which has that or a wavelength, mm."""
+    return float(scale["wavenumber"] or 2.0 * math.pi / scale["wavelength"])
+
+
+def _one_wave(scale: Any) -> Any:
+    """Refuse a scale without a wavelength, or with two."""
+    given = [name for name in _WAVE if name in scale.model_fields_set]
+    if not given:
+        raise InvalidInput(f"{HERE} lacks the key 'wavenumber' (2 pi / wavelength, rad/mm), or 'wavelength' (mm)")
+    if len(given) == 2:
+        raise InvalidInput(f"{HERE} has both wavenumber and wavelength, but must have one: the former is 2 pi / latter")
+    return scale
+
+
+class _RubberEntry(Entry):
+    """A rubber, whose bulk modulus has no spectrum of its own."""
+
+    @classmethod
+    def unknown(cls, name: Any) -> str:
+        """Return what to say of a key that there is not; of k_i, what there is for the bulk modulus."""
+        said = super().unknown(name)
+        if not isinstance(name, str) or not any(word in name.lower() for word in ("bulk", "k_i", "kappa")):
+            return said
+        said = said if said.endswith(")") else f"{said} (did you mean bulk?)"
+        return f"{said}: the bulk modulus is elastic (k_i = 0) or proportional to the shear modulus (k_i = g_i)"
+
+
+def _sound(rubber: Any) -> Any:
+    """Refuse a rubber whose entries do not go together."""
+    try:
+        Material(name="x", **rubber.given())
+    except InvalidInput as error:
+        raise InvalidInput(*(fault.replace("rubbers.x.", f"{HERE}.") for fault in error.faults)) from None
+    return rubber
+
+
 if TYPE_CHECKING:  # made of the dataclasses below
     NumericsChoice = Entry
     Preset = Entry
@@ -223,24 +209,37 @@ else:
     )
     Rubber = create_model(
         "Rubber",
-        __base__=Entry,
+        __base__=_RubberEntry,
         __doc__="A linear viscoelastic rubber, a spring and any number of Maxwell elements.",
         **keys(
             Material,
             [name for name in rules(Material) if name != "name"],
             {one.name: one.default for one in fields(Material) if one.default is not MISSING},
         ),
+        __validators__={"_sound": model_validator(mode="after")(_sound)},
     )
     Scale = create_model(
         "Scale",
         __base__=Entry,
         __doc__="A scale of a road.",
-        **keys(SineScale, rules(SineScale)),
+        __validators__={"_wave": model_validator(mode="after")(_one_wave)},
+        **keys(SineScale, ["amplitude"]),
+        wavenumber=(
+            Annotated[
+                Any, Number("Wavenumber, 2 pi over the wavelength (radians per mm); one of the two is given.", "1/mm")
+            ],
+            None,
+        ),
+        wavelength=(
+            Annotated[Any, Number("Wavelength, in place of the wavenumber, 2 pi over it.", "mm")],
+            None,
+        ),
         phase=(
             Annotated[float, Number("Phase; it matters where all scales are taken at once.", "rad", -1e6, 1e6)],
             0.0,
         ),
     )
+    Scale.model_config["json_schema_extra"] = {"oneOf": [{"required": [name]} for name in _WAVE]}
 
 
 class Config(Entry):
@@ -270,11 +269,11 @@ class Config(Entry):
     multiscale_preset: Annotated[str, Named("Name of the entry under presets with which the whole road is simulated.")]
     phases: PhasesChoice
     grid: Grid
-    aspect_study: AspectStudy
-    transient: TransientChoice
-    figures: FigureChoice
-    rig: RigChoice
-    claims: ClaimsChoice
+    aspect_study: AspectStudy | None = None
+    transient: TransientChoice | None = None
+    figures: FigureChoice | None = None
+    rig: RigChoice | None = None
+    claims: ClaimsChoice | None = None
     numerics: NumericsChoice
     presets: Annotated[
         dict[str, Preset],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,16 @@ import yaml
 from rubfric.checks import shown
 from rubfric.errors import InvalidInput
 
+# A config that gives one of these runs a campaign of its own,
+OWN = frozenset(("rubber", "rubbers", "road", "roads", "grid"))
+# and of these sections those that it gives; listed are the keys that follow from the grid where they are left out.
+EXTRAS = {
+    "aspect_study": ("scales", "pressures"),
+    "transient": ("scale", "velocities", "pressure"),
+    "figures": ("total_pressure", "fields"),
+    "rig": ("pressures", "speeds"),
+    "claims": (),
+}
 # What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
 _NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
 
@@ -31,6 +42,8 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         tree = loader.get_single_node()
         twice = _key_given_twice(tree)
         held = None if tree is None or twice else loader.construct_document(tree)
+    except UnicodeDecodeError as error:
+        raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {_no_text(error)}") from error
     except RecursionError as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: lists or mappings are nested too deeply") from error
     except (*_NO_YAML, IsADirectoryError) as error:
@@ -38,6 +51,15 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
     if twice:
         raise InvalidInput(f"{os.fspath(path)} {twice}")
     return held
+
+
+def _no_text(error: UnicodeDecodeError) -> str:
+    """Say which byte of a file is no UTF-8, where, and what to do."""
+    line = error.object.count(b"\n", 0, error.start) + 1
+    return (
+        f"it is not in UTF-8, since line {line} has the byte 0x{error.object[error.start]:02x}; save it as UTF-8, in "
+        "most editors under 'save as' and 'encoding'"
+    )
 
 
 def _key_given_twice(tree: yaml.Node | None) -> str:
@@ -62,12 +84,41 @@ def _key_given_twice(tree: yaml.Node | None) -> str:
     return ""
 
 
-def overlaid(paths: Iterable[str | os.PathLike[str]], keys: Iterable[str]) -> dict[str, Any]:
-    """Read one or more YAML files, each laid over the ones before.
+def as_typed(config: Any, given: Any) -> Any:
+    """Return a config whose entries from Snakemake's command line are the numbers that they were written as.
+
+    What is nested there, ``--config 'grid={"aspect": 0.5}'``, arrives as text.
 
     Parameters
     ----------
-    paths : iterable of path-like
+    config : mapping
+        The whole config.
+    given : mapping
+        What the command line gave, as Snakemake read it.
+    """
+    if isinstance(config, Mapping) and isinstance(given, Mapping):
+        return {key: as_typed(value, given[key]) if key in given else value for key, value in config.items()}
+    return _typed(given) if config == given else config
+
+
+def _typed(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_typed(item) for item in value]
+    if not isinstance(value, str):
+        return value
+    for kind in (int, float):
+        with suppress(ValueError):
+            return kind(value)
+    return {"null": None, "~": None, "true": True, "false": False}.get(value.lower(), value)
+
+
+def overlaid(configs: Iterable[str | os.PathLike[str] | Mapping[str, Any]], keys: Iterable[str]) -> dict[str, Any]:
+    """Read one or more configs, each laid over the ones before.
+
+    Parameters
+    ----------
+    configs : iterable of path-like or mapping
+        YAML files, or what such a file holds.
     keys : iterable of str
         What such a file may hold, for the message.
 
@@ -78,15 +129,43 @@ def overlaid(paths: Iterable[str | os.PathLike[str]], keys: Iterable[str]) -> di
     FileNotFoundError
         For a missing file.
     """
-    merged: dict[str, Any] | None = None
-    for path in paths:
-        entry = read_yaml(path)
+    entries: list[Mapping[str, Any]] = []
+    for config in configs:
+        entry = config if isinstance(config, Mapping) else read_yaml(config)
         if not isinstance(entry, Mapping):
-            raise InvalidInput(f"{os.fspath(path)} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
-        merged = _overlay(merged or {}, entry)
-    if merged is None:
+            raise InvalidInput(f"{config} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
+        entries.append(entry)
+    if not entries:
         raise InvalidInput("no config was given: name at least one file")
-    return merged
+    above: dict[str, Any] = {}
+    for entry in entries[1:]:
+        above = _overlay(above, entry)
+    return own_campaign(_overlay(entries[0], above), above)
+
+
+def own_campaign(merged: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a config without what the config below adds to the grid, where the one above has a rubber, road or grid.
+
+    What it names itself of those sections stays, and takes from below what it leaves out, except for the speeds, loads
+    and scales: they belong to the grid below.
+
+    Parameters
+    ----------
+    merged : mapping
+        The config above laid over the one below.
+    above : mapping
+    """
+    if not OWN & set(above):
+        return dict(merged)
+    kept: dict[str, Any] = {}
+    for section, following in EXTRAS.items():
+        own, both = above.get(section), merged.get(section)
+        if isinstance(own, Mapping) and isinstance(both, Mapping):
+            kept[section] = {key: value for key, value in both.items() if key not in following}
+            kept[section] |= {key: value for key, value in own.items() if key in following}
+        else:
+            kept[section] = own
+    return {**merged, **kept}
 
 
 def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:

@@ -35,10 +35,17 @@ differ into a file of your own, which is laid over it:
 snakemake -j2 --configfile mine.yaml
 ```
 
-[minimal.yaml](minimal.yaml) is such a file, of a campaign that runs in under a minute. Mappings are merged key by key,
-anything else is replaced. Numbers may be written in any way that YAML takes for a number: `1.0e-3`, not `1e-3`, which
-it takes for text. A wrong config is refused before any job starts, in one sentence that names the key, the value and
-what is allowed; so is a file that has a key twice.
+**A file that gives a rubber, road or grid of its own runs the grid only, and of `aspect_study`, `transient`, `rig` and
+`claims`, which the paper adds, just those that it gives too.** Speeds, loads and scales that it does not choose for
+them or for `figures` follow from the grid. `null` switches a section off: `claims: null`. `rubfric init mine.yaml`
+writes such a file, with comments, to begin with.
+
+[minimal.yaml](minimal.yaml) is another, of the paper's campaign in under a minute. Mappings are merged key by key,
+anything else is replaced. Paths may hold `~` and environment variables. Numbers may be written in any way that YAML
+takes for a number: `1.0e-3`, not `1e-3`, which it takes for text. A wrong config is refused before any job starts, with
+a sentence for every fault that names the key, the value and what is allowed; so are a file that has a key twice, and
+numbers that are far from any rubber, road or load (Young's modulus in Pa, amplitudes in µm), with the unit that was
+probably meant.
 
 Below, `*` stands for a name of your choice and `[]` for every entry of a list.
 """
@@ -84,7 +91,7 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         node = field.metadata[0].schema()
         unit = node.get("unit") or node.get("items", {}).get("unit") or _NOTHING
         optional = "" if field.is_required() else "; may be left out"
-        optional += f", for {_default(field.default)}" if optional and field.default is not None else ""
+        optional += f", for {_otherwise(field.default)}" if optional and field.default is not None else ""
         defaults = "; ".join(f"{label}: {_default(value)}".removeprefix(": ") for label, value in inner.items())
         missing = "the preset's" if at == "numerics." else _NOTHING
         yield f"`{at}{name}`", field.metadata[0].about, unit, _allowed(node) + optional, defaults or missing
@@ -92,6 +99,7 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
 
 def _below(annotation: Any) -> tuple[type[Entry] | None, str]:
     """Return the model of a key, if its value has keys of its own, and what stands for free names between the two."""
+    annotation = _given(annotation)
     if get_origin(annotation) is not dict:
         return (annotation if isinstance(annotation, type) and issubclass(annotation, Entry) else None), ""
     entry = get_args(annotation)[1]
@@ -100,7 +108,22 @@ def _below(annotation: Any) -> tuple[type[Entry] | None, str]:
 
 def _about(name: str) -> str:
     field = Config.model_fields[name]
-    return field.metadata[0].about if field.metadata else str(getattr(field.annotation, "__doc__", ""))
+    if field.metadata:
+        return str(field.metadata[0].about)
+    off = "" if field.is_required() else f" `{name}: null`, or to leave it out, is to do without."
+    return f"{_given(field.annotation).__doc__}{off}"
+
+
+def _given(annotation: Any) -> Any:
+    """Return the model of a key whose value may be null."""
+    return get_args(annotation)[0] if type(None) in get_args(annotation) else annotation
+
+
+def _otherwise(value: Any) -> str:
+    """Return a default; numbers and lists that follow from the grid are zero and empty there."""
+    if value == () or (value == 0.0 and isinstance(value, float)):
+        return "some of the grid's"
+    return _default(list(value) if isinstance(value, tuple) else value)
 
 
 def _default(value: Any) -> str:

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.models import Config
+from rubfric.config.models import (
+    AspectStudy,
+    ClaimsChoice,
+    Config,
+    Fields,
+    FigureChoice,
+    Grid,
+    TransientChoice,
+)
+from rubfric.config.rig import RigChoice
 from rubfric.errors import InvalidInput
 from rubfric.rules import Choice, Integer
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
@@ -28,34 +38,130 @@ def scale_number(key: str, value: Any, scales: int) -> int:
     return number
 
 
-def check_references(given: Config, scales: int) -> None:
-    """Check what refers to other entries of the config: scales, values of the grid, presets and readings.
+def read_whole(config: Any) -> Config:
+    """Check a config whole and read it.
+
+    Raises
+    ------
+    InvalidInput
+        A sentence on everything that is wrong.
+    """
+    try:
+        given = Config.read("", config)
+        sections, found = {name: getattr(given, name) for name in Config.model_fields}, []
+    except InvalidInput as error:
+        sections, found = Config.sound_sections(config), list(error.faults)
+    found += references(sections)
+    if found:
+        raise InvalidInput(*found)
+    return given
+
+
+def references(sections: Mapping[str, Any]) -> list[str]:
+    """Return a sentence on every entry that refers to what there is not.
 
     Parameters
     ----------
-    given : Config
-    scales : int
-        How many scales the road in use has.
+    sections : mapping
+        The sections of a config that are right by themselves, by name; what refers to others is not looked at.
     """
-    study, fields = given.aspect_study, given.figures.fields
-    numbered = [("transient.scale", given.transient.scale), ("figures.fields.scale", fields.scale)]
-    for key, number in [*numbered, *(("aspect_study.scales", number) for number in study.scales)]:
-        scale_number(key, number, scales)
+    found: list[str] = []
+
+    def look(check: Any, *arguments: Any) -> None:
+        try:
+            check(*arguments)
+        except InvalidInput as error:
+            found.extend(error.faults)
+
+    for name, catalogue in (("rubber", "rubbers"), ("road", "roads"), ("multiscale_preset", "presets")):
+        if {name, catalogue} <= set(sections):
+            look(Choice(words=sections[catalogue]).check, name, sections[name])
+    presets, claims = sections.get("presets"), sections.get("claims")
+    if presets and "numerics" in sections:
+        look(_numerics, sections["numerics"], presets)
+    if claims:
+        if presets:
+            look(Choice(words=presets).check, "claims.preset", claims.preset)
+        for name in claims.compare:
+            look(Choice(words=claims.readings).check, "claims.compare", name)
+    if {"road", "roads"} <= set(sections) and not any(fault.startswith("road ") for fault in found):
+        for key, number in _scales(sections):
+            look(scale_number, key, number, len(sections["roads"][sections["road"]]))
+    if sections.get("grid") and sections.get("figures"):
+        look(_on_grid, sections["grid"], sections["figures"])
+    return found
+
+
+def _scales(sections: Mapping[str, Any]) -> list[tuple[str, int]]:
+    study, march, figures = (sections.get(name) for name in ("aspect_study", "transient", "figures"))
+    return [
+        *([("transient.scale", march.scale)] if march else []),
+        *([("figures.fields.scale", figures.fields.scale)] if figures else []),
+        *(("aspect_study.scales", number) for number in (study.scales if study else ())),
+    ]
+
+
+def _on_grid(grid: Grid, figures: FigureChoice) -> None:
     chosen = (
-        ("figures.total_pressure", (given.figures.total_pressure,), "pressures"),
-        ("figures.fields.pressures", fields.pressures, "pressures"),
-        ("figures.fields.velocities", fields.velocities, "velocities"),
+        ("figures.total_pressure", (figures.total_pressure,) if figures.total_pressure else (), "pressures"),
+        ("figures.fields.pressures", figures.fields.pressures, "pressures"),
+        ("figures.fields.velocities", figures.fields.velocities, "velocities"),
     )
+    faults = []
     for key, values, axis in chosen:
-        allowed = getattr(given.grid, axis)
-        for value in values:
-            if value not in allowed:
-                known = ", ".join(map(checks.written, allowed))
-                raise InvalidInput(f"{key} has {checks.written(value)}, but must be chosen from grid.{axis}: {known}")
-    for key, name in (("claims.preset", given.claims.preset), ("multiscale_preset", given.multiscale_preset)):
-        Choice(words=given.presets).check(key, name)
-    for name in given.claims.compare:
-        Choice(words=given.claims.readings).check("claims.compare", name)
+        allowed = getattr(grid, axis)
+        others = ", ".join(checks.written(value) for value in values if value not in allowed)
+        if others:
+            known = ", ".join(map(checks.written, allowed))
+            faults.append(f"{key} has {others}, but must be chosen from grid.{axis}: {known}")
+    if faults:
+        raise InvalidInput(*faults)
+
+
+def spread(values: Sequence[float], most: int) -> tuple[float, ...]:
+    """Return at most so many of some values, evenly from the first to the last."""
+    last = len(values) - 1
+    places = {round(last * place / max(most - 1, 1)) for place in range(most)}
+    return tuple(values[place] for place in sorted(places))
+
+
+def study_of(given: AspectStudy | None, grid: Grid) -> AspectStudy | None:
+    """Return the study of aspects, at the lowest and highest pressure of the grid where it has none."""
+    return given and given.model_copy(update={"pressures": given.pressures or spread(grid.pressures, 2)})
+
+
+def march_of(given: TransientChoice | None, grid: Grid) -> TransientChoice | None:
+    """Return what is marched, at four speeds of the grid and its middle pressure where it has none."""
+    middle = grid.pressures[(len(grid.pressures) - 1) // 2]
+    return given and given.model_copy(
+        update={"velocities": given.velocities or spread(grid.velocities, 4), "pressure": given.pressure or middle}
+    )
+
+
+def figures_of(given: FigureChoice | None, grid: Grid) -> FigureChoice:
+    """Return what the figures show: the highest pressure, fields at four speeds and three pressures by default."""
+    chosen = given or FigureChoice()
+    fields = Fields(
+        scale=chosen.fields.scale,
+        velocities=chosen.fields.velocities or spread(grid.velocities, 4),
+        pressures=chosen.fields.pressures or spread(grid.pressures, 3),
+    )
+    return chosen.model_copy(update={"total_pressure": chosen.total_pressure or grid.pressures[-1], "fields": fields})
+
+
+def rig_of(given: RigChoice | None, grid: Grid) -> RigChoice | None:
+    """Return the test rig, whose figure shows three pressures and four speeds of the grid by default."""
+    return given and given.model_copy(
+        update={
+            "pressures": given.pressures or spread(grid.pressures, 3),
+            "speeds": given.speeds or spread(grid.velocities, 4),
+        }
+    )
+
+
+def readings_of(claims: ClaimsChoice | None) -> Mapping[str, Any]:
+    """Return the other readings of the paper, by name; none where its claims are not judged."""
+    return claims.readings if claims else {}
 
 
 def numerics_of(given: Config) -> tuple[Numerics, dict[str, Numerics]]:
@@ -63,12 +169,15 @@ def numerics_of(given: Config) -> tuple[Numerics, dict[str, Numerics]]:
 
     A bound on columns below those that a preset begins with concerns the preset in use only.
     """
-    own = given.numerics.given()
-    preset = Choice(words=given.presets).check("numerics.preset", own.pop("preset"))
-    entries = {name: entry.given() for name, entry in given.presets.items()}
+    return _numerics(given.numerics, given.presets)
+
+
+def _numerics(chosen: Any, entries: Mapping[str, Any]) -> tuple[Numerics, dict[str, Numerics]]:
+    own = chosen.given()
+    preset = Choice(words=entries).check("numerics.preset", own.pop("preset"))
     rest = {name: value for name, value in own.items() if name not in PRESET_KEYS}
     presets = {}
-    for name, entry in entries.items():
+    for name, entry in ((name, entry.given()) for name, entry in entries.items()):
         most = max(rest["columns_max"], entry["columns_min"], entry["finite_columns_min"])
         presets[name] = Numerics(**entry | rest | {"columns_max": most})
-    return Numerics(**entries[preset] | own), presets
+    return Numerics(**entries[preset].given() | own), presets

@@ -15,7 +15,7 @@ from rubfric.results.selection import friction, friction_error, written
 
 
 @style.applied()
-def draw(campaign: xr.Dataset, aspect: float) -> Figure:
+def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     """Draw the friction coefficient against speed, a line per pressure and a panel per scale, the finest first.
 
     Parameters
@@ -24,6 +24,8 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
         As gathered by ``results.campaign.collect``; pressures at which no block of this ratio was run are left out.
     aspect : float
         Height over width of the blocks.
+    micro : bool
+        Whether the finest of several scales is the paper's micro-scale.
 
     Returns
     -------
@@ -55,7 +57,7 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
             mark_peak(panel, speeds, line.values, look["color"])
     scale_speeds(axes[0], speeds)
     scale_friction(axes[0], upper(grid.values, errors.values))
-    panels.entitle(axes, _titles(scales))
+    panels.entitle(axes, _titles(scales, micro))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
     handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
     marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
@@ -63,9 +65,9 @@ def draw(campaign: xr.Dataset, aspect: float) -> Figure:
     return figure
 
 
-def _titles(scales: list[int]) -> list[str]:
-    """Return the names of scales from fine to coarse; the finest of several is the paper's micro-scale."""
+def _titles(scales: list[int], micro: bool) -> list[str]:
+    """Return the names of scales from fine to coarse."""
     titles = [f"scale {scale}" for scale in scales]
-    if len(scales) > 1:
+    if micro and len(scales) > 1:
         titles[0] = f"micro-scale ({titles[0]})"
     return titles

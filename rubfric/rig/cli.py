@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from rubfric.config import campaign as campaigns
-from rubfric.config.models import TRACTIONS, VirtualRig
+from rubfric.config.plausibility import check_area
+from rubfric.config.rig import TRACTIONS, RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 
 _REDUCE = """\
@@ -143,7 +144,7 @@ def _reduce(options: argparse.Namespace) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*options.configs(options.config or []))
-    virtual = _virtual(campaign.rig.virtual, options)
+    virtual = _virtual((campaign.rig or RigChoice()).virtual, options)
     from rubfric.results.campaign import read
     from rubfric.results.friction_map import FrictionMap
     from rubfric.results.scales import WORDS
@@ -168,4 +169,6 @@ def _virtual(virtual: VirtualRig, options: argparse.Namespace) -> VirtualRig:
     given = {name: value for name in VirtualRig.model_fields if (value := getattr(options, name)) is not None}
     if options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
-    return VirtualRig.read("rig.virtual", dict(virtual) | given)
+    rig = VirtualRig.read("rig.virtual", dict(virtual) | given)
+    check_area("rig.virtual.area", rig.area)
+    return rig

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from rubfric.config.models import RigChoice
+from rubfric.config.rig import RigChoice
 from rubfric.errors import InvalidInput
 from rubfric.rig.settings import read_settings
 

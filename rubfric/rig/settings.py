@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from rubfric import checks
-from rubfric.config.models import VirtualRig
 from rubfric.config.overlay import read_yaml
+from rubfric.config.place import Place
+from rubfric.config.plausibility import check_area
+from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.rig.format import AS_FOUND, FORMAT, Format
 from rubfric.rig.units import QUANTITIES, check_factor
@@ -222,7 +224,7 @@ def _bearing(key: str, value: Any) -> Bearing:
         raise InvalidInput(f"{key}.file is {checks.shown(file)}, but must be the path of an unloaded pull")
     if file and "force" in value:
         raise InvalidInput(f"{key} has both a force and a file, but the force comes from the file: keep one of them")
-    return Bearing(file=file, **numbers)
+    return Bearing(file=Place().check(f"{key}.file", file) or "" if file else "", **numbers)
 
 
 def _forces(key: str, value: Any) -> dict[str, float]:
@@ -245,7 +247,7 @@ def _windows(key: str, value: Any) -> Windows:
 _READERS: dict[str, Any] = {
     "columns": _columns,
     "units": _units,
-    "area": rules(VirtualRig)["area"].check,
+    "area": lambda key, value: check_area(key, rules(VirtualRig)["area"].check(key, value)),
     "normal": Number(unit="N").check,
     "sampling": Number(unit="Hz").check,
     "traction": rules(VirtualRig)["traction"].check,

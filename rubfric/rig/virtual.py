@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rubfric.config.models import VirtualRig
+from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.bearing import Drag

@@ -24,6 +24,8 @@ from rubfric.rules import Choice, Items, Number, Word, check_fields
 MODULI = ("long_term", "instantaneous")
 BULK = ("elastic", "proportional")
 PLANES = ("stress", "strain")
+# Least share that never relaxes: twelve digits of the others give it to about one per cent.
+_LEAST_SHARE = 5e-10
 
 
 def _branches(about: str, unit: str = "") -> Items:
@@ -81,6 +83,11 @@ class Material:
         total = checks.number(f"{at}shear_fractions", math.fsum(fractions))
         if total >= 1.0:
             raise InvalidInput(f"{at}shear_fractions add up to {total:g}, but must stay below 1")
+        if 1.0 - total < _LEAST_SHARE:
+            raise InvalidInput(
+                f"{at}shear_fractions leave a share of {1.0 - total:.1g} that never relaxes, but must leave at least "
+                f"{_LEAST_SHARE:g}: twelve digits of each share do not say more"
+            )
 
     @property
     def long_term_fraction(self) -> float:

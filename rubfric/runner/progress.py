@@ -56,10 +56,22 @@ class Progress:
         Number of jobs of each rule that this run has to do.
     clock : callable, optional
         Returns the time, s.
+    expected : callable, optional
+        Takes a rule; returns how long one of its jobs takes, s, as measured before, so that the time left is known from
+        the first line on.
+    at_once : int
+        How many jobs may run at a time; where nothing is expected the most that did.
     """
 
-    def __init__(self, planned: Mapping[str, int], clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        planned: Mapping[str, int],
+        clock: Callable[[], float] = time.monotonic,
+        expected: Callable[[str], float] | None = None,
+        at_once: int = 1,
+    ) -> None:
         self._planned = Counter(planned)
+        self._expected, self._cores = expected, at_once
         self._clock = clock
         self._began = clock()
         self._running: dict[int, _Job] = {}
@@ -133,6 +145,11 @@ class Progress:
         return {number: job.logs for number, job in self._running.items()}
 
     @property
+    def complete(self) -> bool:
+        """Whether every job that was planned has its result."""
+        return sum(self.finished.values()) >= self._planned.total() > 0
+
+    @property
     def elapsed(self) -> float:
         """Time since the run began, s."""
         return self._clock() - self._began
@@ -152,6 +169,8 @@ class Progress:
         Every job that remains is assumed to last as long as those of its rule did on average, with as many jobs at a
         time as there were so far.
         """
+        if self._expected:
+            return self._foreseen(self._expected)
         done = [took for seconds in self._seconds.values() for took in seconds]
         for rule, planned in self._planned.items():
             many = planned >= max(_SHARE * self._planned.total(), _FEWEST)
@@ -168,6 +187,24 @@ class Progress:
             longest = max([longest, *left])
         return max(work / self._most_at_once, longest)
 
+    def _foreseen(self, expected: Callable[[str], float]) -> float:
+        """Return how long the rest may take: expected times, scaled by those of the jobs that are done.
+
+        The first jobs of a rule count little against what was expected of it; the jobs of all rules together say how
+        fast this machine is.
+        """
+        before = sum(expected(rule) * len(seconds) for rule, seconds in self._seconds.items())
+        speed = (_FEWEST + sum(map(sum, self._seconds.values()))) / (_FEWEST + before)
+        now, work, longest = self._clock(), 0.0, 0.0
+        for rule, planned in self._planned.items():
+            seconds = self._seconds.get(rule, [])
+            mean = (_FEWEST * expected(rule) * speed + sum(seconds)) / (_FEWEST + len(seconds))
+            ages = [now - job.began for job in self._running.values() if job.rule == rule]
+            left = [max(mean - age, 0.0) for age in ages]
+            work += max(planned - len(seconds) - len(ages), 0) * mean + sum(left)
+            longest = max([longest, *left])
+        return max(work / max(self._most_at_once, self._cores), longest)
+
     def line(self) -> str:
         """Return in one line what is done, how long the rest may take, and what was slowest; empty before any job."""
         begun = {kind(rule) for rule in (*self.finished, *(job.rule for job in self._running.values()))}
@@ -179,7 +216,7 @@ class Progress:
         line = [", ".join(parts)] if parts else []
         left = self.remaining()
         if left is not None and sum(self.finished.values()) < self._planned.total():
-            line.append(f"about {_coarse(left)} left")
+            line.append(f"about {coarse(left)} left")
         if slowest := self.slowest(1):
             line.append(f"slowest {slowest[0][0]} {duration(slowest[0][1])}")
         if self._failures:
@@ -214,7 +251,7 @@ def _amount(number: int, what: str) -> str:
     return f"{number} {_WORDS[what][number != 1]}"
 
 
-def _coarse(seconds: float) -> str:
+def coarse(seconds: float) -> str:
     """Return a time as roughly as it is known."""
     if seconds < 90.0:
         return f"{max(5, 5 * round(seconds / 5.0))} s"

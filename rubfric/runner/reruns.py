@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -64,15 +64,30 @@ def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
     NotWritten
         Where the file cannot be written.
     """
-    paths, place = sources(*modules), Path(folder, "+".join(modules))
-    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in paths]
-    text = "\n".join(lines) + "\n"
+    return stamp_files(folder, "+".join(modules), sources(*modules))
+
+
+def stamp_files(folder: str | os.PathLike[str], name: str, paths: Iterable[Path]) -> str:
+    """Keep a file ``name`` in ``folder`` that represents some files of the package, as ``stamp`` does."""
+    found = list(paths)
+    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in found]
+    return _kept(Path(folder, name), "\n".join(lines) + "\n", found)
+
+
+def copy_of(folder: str | os.PathLike[str], path: str | os.PathLike[str]) -> str:
+    """Keep a copy of a text file in ``folder``, as ``stamp`` keeps its own file, and return its path."""
+    source = Path(path)
+    return _kept(Path(folder, source.name), source.read_text(encoding="utf-8"), [source])
+
+
+def _kept(place: Path, text: str, origins: list[Path]) -> str:
+    """Write a text where a file does not hold it; a file that was missing gets the age of the youngest origin."""
     known = place.read_text(encoding="utf-8", errors="replace") if place.exists() else None
     if known != text:
         with whole(place) as part:
             part.write_text(text, encoding="utf-8")
             if known is None:
-                age = max(path.stat().st_mtime_ns for path in paths)
+                age = max(path.stat().st_mtime_ns for path in origins)
                 os.utime(part, ns=(age, age))
     return str(place)
 

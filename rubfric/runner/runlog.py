@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import datetime
 import logging
-import os
 import sys
 import threading
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -22,7 +21,9 @@ from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from rubfric.runner.findings import findings
-from rubfric.runner.progress import Failure, Progress, amounts, duration
+from rubfric.runner.lines import Lines
+from rubfric.runner.made import Made
+from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
 _SHORTEST, _LONGEST = 5.0, 60.0
@@ -35,6 +36,8 @@ _COVERED = {
     LogEvent.RUN_INFO,
 }
 _SELECTING = "Select jobs to execute..."
+# Without the profile of the workflow, as within a module.
+_SLOW = "each job starts a Snakemake of its own, which takes seconds: --force-use-threads does without"
 _MOST_NAMED, _MOST_FAILURES = 5, 20
 
 
@@ -47,16 +50,27 @@ class RunLog(logging.Handler):
         Folder of the results; the log goes to ``logs/run.log`` in it.
     targets : collection of str
         Rules without output, whose jobs do not count.
+    rules : mapping of str to str, optional
+        The names of the workflow's own rules by those they have in the run, where it is a module of another one; jobs
+        of other rules do not count. By default every rule has its own name.
     tables : iterable of str
         Tables of single scales and of totals, for errors, warnings and refusals.
     first : iterable of str
         Files to open first, the most important first; those that are missing are not named.
-    dry : callable
-        Returns whether this is a dry run.
+    dry, touch, threads : callable
+        Return whether this is a dry run, whether files are only marked as up to date, and whether jobs run as threads.
     seconds : callable
         Takes the path of a job's log; returns how long the job took, s, or None where that is not known.
     stream : text file or None
         Where the lines go beside the file; None for nowhere.
+    opening : callable
+        Returns the lines that come first: what is understood of the config.
+    expected : callable, optional
+        Takes a rule; returns how long one of its jobs takes, s.
+    at_once : callable
+        Returns how many jobs may run at a time.
+    leftovers : callable
+        Removes what an earlier config made and this one does not, once tables are made; returns what to say of it.
     """
 
     def __init__(
@@ -64,19 +78,29 @@ class RunLog(logging.Handler):
         results: str,
         *,
         targets: Collection[str] = (),
+        rules: Mapping[str, str] | None = None,
         tables: Iterable[str] = (),
         first: Iterable[str] = (),
         dry: Callable[[], bool] = lambda: False,
+        touch: Callable[[], bool] = lambda: False,
+        threads: Callable[[], bool] = lambda: True,
         seconds: Callable[[str], float | None] = lambda log: None,
         stream: TextIO | None = sys.stderr,
+        opening: Callable[[], list[str]] = list,
+        expected: Callable[[str], float] | None = None,
+        at_once: Callable[[], int] = lambda: 1,
+        leftovers: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__()
-        self._results, self._path = results, Path(results) / "logs" / "run.log"
-        self._targets, self._tables, self._first = frozenset(targets), list(tables), list(first)
-        self._dry, self._seconds, self._stream = dry, seconds, stream
+        path = Path(results) / "logs" / "run.log"
+        self._folder, self._targets, self._rules, self._seconds = path.parent, frozenset(targets), rules, seconds
+        self._dry, self._touch, self._threads = dry, touch, threads
+        self._opening, self._expected, self._at_once, self._leftovers = opening, expected, at_once, leftovers
         self._progress = Progress({})
+        self._to_do = "To do: nothing"
         self._would: list[tuple[str, str]] = []
-        self._interrupted = False
+        self._lines, self._made = Lines(path, stream), Made(results, tables, first)
+        self._interrupted = self._begun = self._reported = False
         self._over = threading.Event()
         self._ticker: threading.Thread | None = None
 
@@ -94,81 +118,117 @@ class RunLog(logging.Handler):
                 case LogEvent.JOB_ERROR:
                     self._fail(about["jobid"], about["log"], about["aux"])
                 case LogEvent.GROUP_ERROR:
-                    self._report([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
+                    self._lines.report([_failed(Failure("a group of jobs, or some of them", tuple(about["aux_logs"])))])
                 case None if record.msg == NOTHING_TO_BE_DONE_MSG:
-                    self._show(self._places())
+                    self._lines.show(self._made.places())
             # Snakemake logs an interruption while it handles it, and the jobs' failures only after that.
             self._interrupted |= isinstance(sys.exception(), KeyboardInterrupt | SystemExit)
         except Exception:
             self.handleError(record)
 
     def begin(self) -> None:
-        """Begin the log; from now on it gets a line now and then."""
-        self._append([f"{_now()}  {' '.join(sys.argv)}"])
+        """Begin the log, if it has not begun; from now on it gets a line now and then."""
+        if self._begun:
+            return
+        self._begun = True
+        self._lines.append(
+            [f"{_now()}  {' '.join(sys.argv)}", *(f"  {line}" for line in [*self._opening(), self._to_do])]
+        )
         self._ticker = threading.Thread(target=self._tick, name="run log", daemon=True)
         self._ticker.start()
 
     def succeed(self) -> None:
-        """Report the outcome, and where it is."""
-        self._stop()
+        """Report the outcome, and where it is, if that was not reported yet."""
+        if not self._end():
+            return
         progress = self._progress
-        self._report([f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._places()])
+        if self._touch():
+            self._lines.report(
+                [
+                    f"Nothing was computed: {progress.done()} marked as up to date (--touch), whatever config and code "
+                    "they were made with"
+                ]
+            )
+            return
+        self._lines.report(
+            [f"Done in {duration(progress.elapsed)}: {progress.done()}", *self._outcome(), *self._made.places()]
+        )
 
     def fail(self) -> None:
-        """Report what failed, where the reasons are, and what to do."""
-        self._stop()
+        """Report what failed, where the reasons are, and what to do, if no outcome was reported yet."""
+        if not self._end():
+            return
         progress = self._progress
         failures = [] if self._interrupted else progress.failures
-        what = f"{len(failures)} failed" if failures else "interrupted"
+        what = "interrupted" if self._interrupted else "Snakemake gives the reason"
+        what = f"{len(failures)} failed" if failures else what
         lines = [f"Stopped after {duration(progress.elapsed)}: {what}; done: {progress.done()}"]
         lines += [_failed(failure) for failure in failures[:_MOST_FAILURES]]
         if len(failures) > _MOST_FAILURES:
-            lines.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._path.parent}")
-        self._report([*lines, "what is done stays; running again makes the rest"])
+            lines.append(f"and {len(failures) - _MOST_FAILURES} more: see {self._folder}")
+        self._lines.report([*lines, "what is done stays; running again makes the rest"])
 
     def close(self) -> None:
-        """End the log."""
+        """End the log; a run that has begun and reported no outcome, as within a module, has failed."""
+        if self._begun:
+            self.fail()
         self._stop()
         super().close()
 
     def _plan(self, stats: Mapping[str, int]) -> None:
-        planned = {rule: count for rule, count in stats.items() if rule != "total" and rule not in self._targets}
+        own = {name: count for rule, count in stats.items() if rule != "total" and (name := self._own(rule))}
+        planned = {rule: count for rule, count in own.items() if rule not in self._targets}
+        self._made.everything = "all" in own
+        if not own:
+            return
         if not self._dry():
-            self._progress = Progress(planned)
-            self._show([f"To do: {amounts(planned)}"])
+            self._progress = Progress(planned, expected=self._expected, at_once=self._at_once())
+            left = None if self._touch() else self._progress.remaining()
+            do = "To mark" if self._touch() else "To do"
+            self._to_do = f"{do}: {amounts(planned)}" + (f"; about {coarse(left)}" if left else "")
+            slow = not (self._threads() or self._touch())
+            self._lines.show([*self._opening(), self._to_do, *([_SLOW] if slow else [])])
         elif self._would:  # the second time, at the end of a dry run, after all its jobs
-            self._show([f"Would be made: {amounts(planned)}", *_names(self._would)])
+            left = Progress(planned, expected=self._expected, at_once=self._at_once()).remaining()
+            about = f"; in about {coarse(left)}" if left else ""
+            self._lines.show([*self._opening(), f"Would be made: {amounts(planned)}{about}", *_names(self._would)])
 
     def _start(self, about: Mapping[str, Any]) -> None:
-        rule = about["rule_name"]
-        if rule in self._targets:
+        rule = self._own(about["rule_name"])
+        if not rule or rule in self._targets:
             return
         name = (about["rule_msg"] or rule).partition(": ")[0]
         if self._dry():
             self._would.append((rule, name))
         else:
+            self.begin()
+            self._made.start(about["jobid"], about["output"])
             self._progress.start(about["jobid"], rule, name, about["log"])
 
     def _finish(self, job: int) -> None:
         logs = self._progress.logs.get(job, ())
-        if self._progress.finish(job, self._seconds(logs[0]) if logs else None):
-            self._report([self._progress.line()])
+        self._made.finish(job)
+        last_of_kind = self._progress.finish(job, self._seconds(logs[0]) if logs else None)
+        if last_of_kind and not self._touch():
+            self._lines.report([self._progress.line()])
+        if self._progress.complete:
+            self.succeed()
 
     def _fail(self, job: int, logs: Collection[str], elsewhere: Mapping[str, Any]) -> None:
         failure = self._progress.fail(job, logs)
         if failure is None:
             return
-        self._append([f"  {_failed(failure)}"])
+        self._lines.append([f"  {_failed(failure)}"])
         if elsewhere:  # of what failed here Snakemake gives the reason at once
-            self._show([_failed(failure)])
+            self._lines.show([_failed(failure)])
 
     def _tick(self) -> None:
         last = ""
         while not self._over.wait(min(max(self._progress.elapsed / 20.0, _SHORTEST), _LONGEST)):
             with self.lock or contextlib.nullcontext():
                 line = self._progress.line()
-            if line and line != last:
-                self._report([line])
+            if line and line != last and not self._touch():
+                self._lines.report([line])
             last = line
 
     def _stop(self) -> None:
@@ -176,36 +236,22 @@ class RunLog(logging.Handler):
         if self._ticker and self._ticker is not threading.current_thread():
             self._ticker.join(1.0)
 
+    def _end(self) -> bool:
+        """Stop; return whether the outcome is still to be reported."""
+        self._stop()
+        first, self._reported = not self._reported, True
+        return first
+
+    def _own(self, rule: str) -> str | None:
+        """Return the name of one of the workflow's own rules, or None for another one."""
+        return rule if self._rules is None else self._rules.get(rule)
+
     def _outcome(self) -> list[str]:
-        """Return the slowest jobs, and findings of the tables where those are of this run or still valid."""
+        """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
-        finished = self._progress.finished
-        if {"scale_table", "total_table"} & set(finished) or "scene" not in finished:
-            lines += findings(self._tables)
-        return lines
-
-    def _places(self) -> list[str]:
-        first = [path for path in self._first if os.path.exists(path)]
-        opened = [f"open first: {', '.join(first)}"] if first else []
-        folder = self._results
-        return [*opened, f"tables are in {folder}/tables, figures in {folder}/figures, fields in {folder}/scenes"]
-
-    def _report(self, lines: Sequence[str]) -> None:
-        self._show(lines)
-        self._append([f"  {line}" for line in lines])
-
-    def _show(self, lines: Iterable[str]) -> None:
-        if self._stream is not None:
-            with contextlib.suppress(OSError, ValueError):  # a terminal that is gone
-                self._stream.write("".join(f"  {line}\n" for line in lines))
-                self._stream.flush()
-
-    def _append(self, lines: Iterable[str]) -> None:
-        with contextlib.suppress(OSError):  # the jobs report a full disk
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            with self._path.open("a", encoding="utf-8") as stream:
-                stream.write("".join(f"{line}\n" for line in lines))
+        lines += findings(self._made.tables())
+        return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:

@@ -20,6 +20,8 @@ from rubfric.scene.numerics import Numerics
 KINEMATICS = ("small", "finite", "auto")
 # The scale of a scene that slides over all scales at once.
 ALL = "all"
+# Height over width of a block, unless another is given: that of the paper's campaign.
+ASPECT = 0.75
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
 
@@ -52,7 +54,7 @@ class Scene:
     pressure : float
         Nominal pressure p on the top of the block, MPa.
     aspect : float
-        Height of the block over the wavelength, that of the coarsest wave where there are many.
+        Height of the block over the wavelength, that of the coarsest wave where there are many; the paper's by default.
     material : Material
         The rubber.
     plane : {"stress", "strain"}
@@ -67,8 +69,8 @@ class Scene:
     road: SineScale | WaveRoad
     velocity: Annotated[float, Number(unit="mm/s")]
     pressure: Annotated[float, Number(unit="MPa")]
-    aspect: Annotated[float, Number()]
-    material: Material
+    aspect: Annotated[float, Number()] = ASPECT
+    material: Material = field(default_factory=lambda: _no_material())
     plane: Annotated[str, Choice(words=PLANES)] = "stress"
     numerics: Numerics = field(default_factory=Numerics)
     kinematics: Annotated[str, Choice(words=KINEMATICS)] = "auto"
@@ -115,6 +117,10 @@ class Scene:
     def digest(self) -> str:
         """SHA-256 of the parameters, for provenance."""
         return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()
+
+
+def _no_material() -> Material:
+    raise InvalidInput("the scene lacks its material: give a rubfric.Material")
 
 
 @lru_cache(maxsize=256)

@@ -7,17 +7,20 @@ import copy
 import json
 import re
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, get_args
 
 import jsonschema
 import pytest
 import yaml
-from admissible import ROOT, SHIPPED, Config, configs, scenes
+from admissible import ROOT, SHIPPED, configs, scenes
+from admissible import Config as Tree
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rubfric import checks
 from rubfric.config.campaign import Campaign, load
+from rubfric.config.models import Config
+from rubfric.config.overlay import overlaid
 from rubfric.errors import InvalidInput, RubfricError
 from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
@@ -84,18 +87,16 @@ def named(way: Way) -> str:
 
 
 def refusal(config: Any) -> str:
-    """Return the one sentence with which a config is refused."""
+    """Return the sentences with which a config is refused: one, or one for each of a name that is missed."""
     with pytest.raises(InvalidInput) as caught:
         Campaign.from_config(config)
-    sentence = str(caught.value)
-    assert "\n" not in sentence
-    assert len(sentence) < 2000
-    return sentence
+    assert all("\n" not in sentence and len(sentence) < 2000 for sentence in caught.value.faults)
+    return " ".join(caught.value.faults)
 
 
 @given(configs())
 @settings(max_examples=60)
-def test_any_admissible_config_is_read_by_reader_and_schema(config: Config) -> None:
+def test_any_admissible_config_is_read_by_reader_and_schema(config: Tree) -> None:
     campaign = Campaign.from_config(config)
     SCHEMA.validate(config)
     assert campaign.velocities == tuple(sorted(checks.number("", value) for value in config["grid"]["velocities"]))
@@ -106,7 +107,7 @@ def test_any_admissible_config_is_read_by_reader_and_schema(config: Config) -> N
 
 @given(configs(), st.data())
 @settings(max_examples=20)
-def test_order_of_keys_and_lists_is_free(config: Config, data: st.DataObject) -> None:
+def test_order_of_keys_and_lists_is_free(config: Tree, data: st.DataObject) -> None:
     shuffled = {key: config[key] for key in data.draw(st.permutations(sorted(config)))}
     for way in (("grid", "velocities"), ("aspect_study", "aspects"), ("transient", "velocities")):
         shuffled = replaced(shuffled, way, data.draw(st.permutations(at(config, way))))
@@ -116,18 +117,18 @@ def test_order_of_keys_and_lists_is_free(config: Config, data: st.DataObject) ->
 @given(configs(), st.booleans())
 @settings(max_examples=15)
 def test_config_survives_yaml_and_its_overlay(
-    tmp_path_factory: pytest.TempPathFactory, config: Config, split: bool
+    tmp_path_factory: pytest.TempPathFactory, config: Tree, split: bool
 ) -> None:
     folder = tmp_path_factory.mktemp("config")
     below, above = folder / "below.yaml", folder / "above.yaml"
     below.write_text(yaml.safe_dump(SHIPPED | {"rubbers": {}, "roads": {}} if split else config), encoding="utf-8")
     above.write_text(yaml.safe_dump(config), encoding="utf-8")
-    assert load(below, above) == Campaign.from_config(config)
+    assert Campaign.from_config(overlaid([below, above], config)) == Campaign.from_config(config)
 
 
 @given(configs())
 @settings(max_examples=15)
-def test_scenes_of_any_config_have_names_fit_for_files(config: Config) -> None:
+def test_scenes_of_any_config_have_names_fit_for_files(config: Tree) -> None:
     campaign = Campaign.from_config(config)
     flattest = COLUMNS_PER_HEIGHT / campaign.numerics.columns_max
     if min(campaign.aspect, *campaign.aspect_study.aspects) < flattest:
@@ -141,12 +142,12 @@ def test_scenes_of_any_config_have_names_fit_for_files(config: Config) -> None:
     assert len({scene.digest for scene in found.values()}) == len(found)
 
 
-def cases(config: Config) -> Iterator[tuple[Way, Any]]:
+def cases(config: Tree) -> Iterator[tuple[Way, Any]]:
     """Yield all that is wrong in one place: where, and what stands there."""
     for way in ways(config):
         entry = at(config, way)
         if isinstance(entry, dict):
-            values: tuple[Any, ...] = NO_MAPPINGS
+            values: tuple[Any, ...] = NO_MAPPINGS[1:] if may_be_left_out(way) else NO_MAPPINGS
         elif isinstance(entry, list):
             values = NO_LISTS if way[-1] in EMPTY_ALLOWED else (*NO_LISTS, [])
         elif isinstance(entry, str):
@@ -158,7 +159,18 @@ def cases(config: Config) -> Iterator[tuple[Way, Any]]:
         yield from ((way, value) for value in values)
 
 
-def unnamed(config: Config, read: Callable[[Config], Any]) -> list[tuple[Way, Any, str]]:
+def may_be_left_out(way: Way) -> bool:
+    """Return whether a key that is no entry of a catalogue has a default."""
+    model: Any = Config
+    for key in way:
+        field = getattr(model, "model_fields", {}).get(key)
+        if field is None:
+            return False
+        model = next((kind for kind in get_args(field.annotation) if kind is not type(None)), field.annotation)
+    return not field.is_required()
+
+
+def unnamed(config: Tree, read: Callable[[Tree], Any]) -> list[tuple[Way, Any, str]]:
     """Return what is wrong in one place and not refused in one sentence that names the key."""
     found = []
     for way, value in cases(config):
@@ -182,7 +194,7 @@ def test_anything_wrong_in_any_place_of_the_shipped_config_is_refused_by_name() 
 
 @given(configs())
 @settings(max_examples=3)
-def test_anything_wrong_in_any_place_of_any_config_is_refused_by_name(config: Config) -> None:
+def test_anything_wrong_in_any_place_of_any_config_is_refused_by_name(config: Tree) -> None:
     assert unnamed(config, Campaign.from_config) == []
 
 
@@ -194,7 +206,7 @@ def test_anything_wrong_in_the_parameters_of_a_scene_is_refused_by_name(scene: S
 
 @given(configs())
 @settings(max_examples=5)
-def test_any_key_taken_away_is_missed_by_name(config: Config) -> None:
+def test_any_key_taken_away_is_missed_by_name(config: Tree) -> None:
     for way in ways(config):
         if not isinstance(way[-1], str):
             continue
@@ -202,6 +214,7 @@ def test_any_key_taken_away_is_missed_by_name(config: Config) -> None:
         del at(without, way[:-1])[way[-1]]
         spare = way[:-1] in CATALOGUES and way[-1] not in in_use(config, way[:-1])
         optional = (way[0] == "rubbers" and way[-1] in OPTIONAL and len(way) == 3) or way[:-2] == READINGS
+        optional |= may_be_left_out(way)
         if spare or optional:
             Campaign.from_config(without)
         else:
@@ -209,12 +222,12 @@ def test_any_key_taken_away_is_missed_by_name(config: Config) -> None:
             assert (str(way[0]).removesuffix("s") if entry else way[-1]) in refusal(without)
 
 
-def in_use(config: Config, catalogue: Way) -> list[str]:
+def in_use(config: Tree, catalogue: Way) -> list[str]:
     """Return the names of the entries of a catalogue that the config uses."""
     if catalogue == READINGS:
         return list(config["claims"]["compare"])
     if catalogue == ("presets",):
-        return [config["numerics"]["preset"], config["claims"]["preset"]]
+        return [config["numerics"]["preset"], config["claims"]["preset"], config["multiscale_preset"]]
     return [config[str(catalogue[0])[:-1]]]
 
 
@@ -223,7 +236,7 @@ def in_use(config: Config, catalogue: Way) -> list[str]:
     st.one_of(st.sampled_from(["velocitys", "", "x" * 5000, "ü", "a\nb", "\ud800"]), st.integers(), st.none()),
 )
 @settings(max_examples=10)
-def test_any_unknown_key_is_refused_by_name(config: Config, key: Any) -> None:
+def test_any_unknown_key_is_refused_by_name(config: Tree, key: Any) -> None:
     closed = [way for way in [(), *ways(config)] if isinstance(at(config, way), dict) and way not in CATALOGUES]
     for way in closed:
         assert repr(key)[:20] in refusal(replaced(config, (*way, key), 1))
@@ -231,7 +244,7 @@ def test_any_unknown_key_is_refused_by_name(config: Config, key: Any) -> None:
 
 @given(configs(), st.data())
 @settings(max_examples=20)
-def test_number_given_twice_in_a_grid_is_refused_by_name(config: Config, data: st.DataObject) -> None:
+def test_number_given_twice_in_a_grid_is_refused_by_name(config: Tree, data: st.DataObject) -> None:
     places = [("grid", "velocities"), ("grid", "pressures"), ("aspect_study", "aspects"), ("transient", "velocities")]
     way = data.draw(st.sampled_from(places))
     values = at(config, way)
@@ -251,7 +264,7 @@ json_trees = st.recursive(
 
 @given(configs(), st.data(), json_trees)
 @settings(max_examples=60)
-def test_anything_at_all_is_read_or_refused(config: Config, data: st.DataObject, tree: Any) -> None:
+def test_anything_at_all_is_read_or_refused(config: Tree, data: st.DataObject, tree: Any) -> None:
     way = data.draw(st.sampled_from([(), *ways(config)]))
     changed = replaced(config, way, tree)
     with contextlib.suppress(InvalidInput):

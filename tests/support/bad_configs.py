@@ -48,12 +48,12 @@ MISSING_KEYS = [
     Bad("presets", MISSING, "config lacks the key 'presets'"),
     Bad("presets.standard.accuracy", MISSING, "presets.standard lacks the key 'accuracy'"),
     Bad("grid.aspect", MISSING, "grid lacks the key 'aspect'"),
-    Bad("aspect_study.scales", MISSING, "aspect_study lacks the key 'scales'"),
-    Bad("figures.fields", MISSING, "figures lacks the key 'fields'"),
-    Bad("figures.fields.velocities", MISSING, "figures.fields lacks the key 'velocities'"),
+    Bad("aspect_study.aspects", MISSING, "aspect_study lacks the key 'aspects'"),
+    Bad("claims.readings", MISSING, "claims lacks the key 'readings'"),
     Bad("numerics.tolerance", MISSING, "numerics lacks the key 'tolerance'"),
     Bad(f"{RUBBER}.relaxation_times", MISSING, "rubbers.zhou2019 lacks the key 'relaxation_times'"),
-    Bad(f"{ROAD}.3.wavenumber", MISSING, r"roads.zhou2019\[3\] lacks the key 'wavenumber'"),
+    Bad(f"{ROAD}.3.wavenumber", MISSING, r"roads.zhou2019\[3\] lacks the key 'wavenumber' .2 pi / wavelength, rad/mm"),
+    Bad(f"{ROAD}.3.wavelength", 0.02, r"roads.zhou2019\[3\] has both wavenumber and wavelength, but must have one"),
 ]
 WRONG_KINDS = [
     Bad(

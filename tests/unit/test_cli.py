@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +14,8 @@ import pytest
 import rubfric
 from rubfric import cli
 from rubfric.config.campaign import load
+from rubfric.config.default import PAPER, base_configs, layers
+from rubfric.config.overlay import read_yaml
 from rubfric.mechanics.block import contact
 from rubfric.results import dataset
 from rubfric.simulation import simulate
@@ -154,27 +158,54 @@ def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> N
         assert key.format(rubfric.__version__) in (CONFIG.parents[1] / name).read_text(encoding="utf-8")
 
 
-def test_default_config_is_that_of_the_working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "config").mkdir()
-    (tmp_path / "config" / "config.yaml").touch()
-    assert cli.default_config().resolve() == tmp_path / "config" / "config.yaml"
-
-
-def test_default_config_elsewhere_is_that_of_the_project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert cli.default_config() == CONFIG
-
-
-def test_without_any_config_the_user_is_told_what_to_do(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_config_of_the_working_folder_is_laid_over_the_default_unless_it_is_something_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(cli, "__file__", str(tmp_path / "site-packages" / "rubfric" / "cli.py"))
-    assert cli.main(["simulate", "--scale", "1", "--velocity", "100", "--pressure", "5"]) == 2
-    assert capsys.readouterr().err == (
-        "rubfric: there is no config/config.yaml here: run in the project's folder, or give --config FILE\n"
-    )
+    assert base_configs() == [PAPER]
+    assert PAPER.read_text() == CONFIG.read_text()
+    local = Path("config/config.yaml")
+    local.parent.mkdir()
+    for text, found in (
+        ("samples: samples.tsv\n", [PAPER]),
+        ("plane: strain\n", [PAPER, local]),
+        (CONFIG.read_text(), [local]),
+    ):
+        local.write_text(text)
+        assert base_configs() == found
+
+
+def test_complete_config_takes_the_place_of_the_default() -> None:
+    whole, mine = read_yaml(PAPER), {"grid": {"aspect": 0.5}}
+    assert layers(mine, mine)[-1] == mine
+    assert layers(mine, mine)[0] == whole
+    # That of a module may hold what the command line of the run gave, which is laid over it then, as elsewhere.
+    assert layers(whole, mine) == [whole]
+    merged = whole | {"grid": whole["grid"] | mine["grid"]}
+    assert layers(merged, mine) == [merged, mine]
+
+
+def test_reader_that_is_gone_is_no_error_and_files_are_written_all_the_same(tmp_path: Path) -> None:
+    """As in ``rubfric ... | head -1``, here with a reader that is gone from the start."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-m", "rubfric.cli", *SCENE, "--output", str(tmp_path / "scene.nc")]
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True, check=False, cwd=tmp_path)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert dataset.read(tmp_path / "scene.nc").attrs["scene"] == "scale1_v100_p5_aspect0.75_stress"
+
+
+@pytest.mark.parametrize(
+    ("redirection", "status", "error"),
+    [(">&-", 0, "usage: rubfric"), (">/dev/full", 1, "rubfric: standard output could not be written (No space left")],
+)
+def test_output_that_is_closed_or_full(tmp_path: Path, redirection: str, status: int, error: str) -> None:
+    command = f"exec {shlex.quote(sys.executable)} -m rubfric.cli --help {redirection}"
+    done = subprocess.run(["sh", "-c", command], stderr=subprocess.PIPE, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == status
+    assert done.stderr.startswith(error)
+    assert "Error" not in done.stderr
 
 
 def test_shell_sees_exit_code_and_sentence(tmp_path: Path) -> None:

@@ -8,8 +8,9 @@ from typing import Annotated, Any
 
 import pytest
 
+from rubfric.config.place import Place
 from rubfric.errors import InvalidInput
-from rubfric.rules import Choice, Integer, Items, Number, Place, Rule, Word, check_fields
+from rubfric.rules import Choice, Integer, Items, Number, Rule, Word, check_fields
 
 PRESSURE, GRID = Number("Pressure.", "MPa"), Items("Speeds.", Number(unit="mm/s"))
 RATIO = Number("Ratio.", low=-1.0, high=0.5, excluded=True)

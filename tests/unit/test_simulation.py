@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -112,9 +113,22 @@ def test_three_lines_answer_in_small_strain_too() -> None:
     assert float(result.friction_coefficient) == pytest.approx(float(finer.friction_coefficient), abs=error)
 
 
-def test_package_offers_what_it_lists() -> None:
+def test_accuracy_may_be_given_beside_the_scene(scene: Scene) -> None:
+    sharper = rubfric.simulate(scene, accuracy=0.002)
+    same = rubfric.simulate(replace(scene, numerics=replace(scene.numerics, accuracy=0.002)))
+    for name in ("friction_coefficient", "friction_coefficient_error"):
+        assert float(sharper[name]) == float(same[name])
+    assert sharper.attrs["scene_digest"] == same.attrs["scene_digest"]
+    with pytest.raises(InvalidInput, match="accuracy is 2"):
+        rubfric.simulate(scene, accuracy=2)
+
+
+def test_package_offers_what_it_lists_to_users_and_to_editors() -> None:
     for name in rubfric.__all__:
         assert getattr(rubfric, name) is not None
+    tree = ast.parse(Path(rubfric.__file__).read_text(encoding="utf-8"))
+    seen = {alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert set(rubfric.__all__) - {"__version__"} <= seen
     assert set(dir(rubfric)) == set(rubfric.__all__)
     with pytest.raises(AttributeError, match="module 'rubfric' has no attribute 'simulat'"):
         rubfric.simulat  # noqa: B018

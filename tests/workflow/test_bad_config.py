@@ -45,19 +45,28 @@ def assert_refused(fresh: Project, done: subprocess.CompletedProcess[str], sente
         ),
         (
             "grid:\n  pressures: [1]\n  aspect: 1\n  pressures: [2]\n",
-            "{root}/bad.yaml has the key 'grid.pressures' twice, in lines 2 and 4; keep one",
+            "bad.yaml has the key 'grid.pressures' twice, in lines 2 and 4; keep one",
         ),
     ],
 )
 def test_bad_overlay_is_refused_in_one_sentence(fresh: Project, overlay: str, sentence: str) -> None:
     (fresh.root / "bad.yaml").write_text(overlay, encoding="utf-8")
     with_overlay = Project(fresh.root, (*MINIMAL, "bad.yaml"))
-    assert_refused(fresh, with_overlay.snakemake(), sentence.replace("{root}", str(fresh.root)))
+    assert_refused(fresh, with_overlay.snakemake(), sentence)
 
 
 def test_bad_value_on_the_command_line_is_refused_in_one_sentence(fresh: Project) -> None:
     done = fresh.snakemake("--config", "plane=flat")
     assert_refused(fresh, done, "plane is 'flat', but must be one of stress, strain")
+
+
+def test_file_that_snakemake_cannot_read_is_refused_in_one_sentence(fresh: Project) -> None:
+    (fresh.root / "bad.yaml").write_bytes(b"plane: strain  # gr\xfcn\n")
+    done = Project(fresh.root, (*MINIMAL, "bad.yaml")).snakemake()
+    assert done.returncode == 1
+    assert [line for line in own_lines(done) if line.startswith("The config is wrong: bad.yaml is not")] == own_lines(
+        done
+    )
 
 
 @pytest.mark.thorough

@@ -191,7 +191,9 @@ def test_what_no_number_depends_on_reruns_nothing(project: Project) -> None:
         "rubfric/runner/jobs.py", "rubfric/runner/warm.py", "rubfric/runner/reruns.py", "rubfric/runner/runlog.py"
     )
     project.comment("README.md", "pyproject.toml", "tests/conftest.py", "workflow/profiles/default/config.yaml")
-    project.comment("Snakefile", "workflow/schemas/config.schema.yaml", DEFAULT, "config/minimal.yaml")
+    project.comment(
+        "Snakefile", "workflow/Snakefile", "workflow/schemas/config.schema.yaml", DEFAULT, "config/minimal.yaml"
+    )
     for rules in sorted((project.root / "workflow" / "rules").glob("*.smk")):
         project.edit(str(rules.relative_to(project.root)), lambda text: f"# A remark.\n\n{text}")
     assert project.plan().jobs == {}
@@ -205,7 +207,7 @@ def test_touch_alone_reruns_nothing(project: Project) -> None:
             if path.suffix in (".py", ".smk", ".yaml"):
                 os.utime(path, (later, later))
                 touched += 1
-    os.utime(project.root / "Snakefile", (later, later))
+    os.utime(project.root / "workflow" / "Snakefile", (later, later))
     assert touched > 40
     assert project.plan().jobs == {}
 

@@ -1,6 +1,6 @@
 # Accuracy against cost, on a fixed set of scenes and on scenes drawn at random: tables, figures and a page. It takes
 # about an hour on two cores, and is no part of `all`. It measures the paper's rubber and road, whatever the config.
-PAPER = load("config/config.yaml")
+PAPER = load(PAPER_CONFIG)
 PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
 LADDERS = fixed_scenes(PAPER)
 DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
@@ -26,11 +26,12 @@ ACCURACY_WORDS = {
 rule ladder:
     input:
         package_files("rubfric.studies.accuracy.ladder"),
-        script="workflow/scripts/measure_ladder.py",
+        script=script_copy("measure_ladder.py"),
     output:
         f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
     log:
         f"{RESULTS}/logs/accuracy/{{scene}}.log",
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: LADDERS[wildcards.scene].parameters(),
     message:
@@ -48,13 +49,14 @@ rule ladder:
 rule calibrate:
     input:
         package_files("rubfric.studies.accuracy.calibration"),
-        script="workflow/scripts/calibrate_errors.py",
+        script=script_copy("calibrate_errors.py"),
     output:
         f"{RESULTS}/accuracy/drawn/{{batch}}.csv",
     log:
         f"{RESULTS}/logs/accuracy/drawn_{{batch}}.log",
     wildcard_constraints:
         batch=r"\d+",
+    localrule: workflow.remote_exec
     params:
         scenes=lambda wildcards: {
             name: DRAWN[name].parameters()
@@ -76,7 +78,7 @@ rule calibrate:
 rule accuracy_tables:
     input:
         package_files("rubfric.studies.accuracy.page"),
-        script="workflow/scripts/tabulate_accuracy.py",
+        script=script_copy("tabulate_accuracy.py"),
         ladders=expand(
             f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
             scene=LADDERS,
@@ -102,6 +104,7 @@ rule accuracy_tables:
         },
     log:
         f"{RESULTS}/logs/accuracy/tables.log",
+    localrule: True
     params:
         accuracies={name: preset["accuracy"] for name, preset in PRESETS.items()},
     message:
@@ -120,7 +123,7 @@ rule accuracy_tables:
 rule accuracy_figure:
     input:
         lambda wildcards: package_files(f"rubfric.figures.{wildcards.figure}"),
-        script="workflow/scripts/draw_table_figure.py",
+        script=script_copy("draw_table_figure.py"),
         table=lambda wildcards: ACCURACY[
             {"pareto": "ladder"}.get(wildcards.figure, wildcards.figure)
         ],
@@ -135,6 +138,7 @@ rule accuracy_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="pareto|calibration",
+    localrule: True
     message:
         "Drawing {wildcards.figure}"
     run:

@@ -10,13 +10,17 @@ from snakemake.settings.enums import Quietness
 import rubfric
 from rubfric.runner import jobs
 from rubfric.config.campaign import load
+from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
 from rubfric.runner.findings import highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
+from rubfric.runner.leftovers import remove_leftovers
+from rubfric.runner.opening import Costs, understood
+from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
-from rubfric.runner.reruns import stamp
+from rubfric.runner.reruns import copy_of, stamp, stamp_files
 from rubfric.studies.accuracy.scenes import (
     batches,
     drawn_scenes,
@@ -24,13 +28,23 @@ from rubfric.studies.accuracy.scenes import (
     whole_scenes,
 )
 
-RESULTS = CAMPAIGN.results
+
+def in_place(folder):
+    """Return a folder as it is, or where the prefix of a module puts it; absolute then, since it would be put twice."""
+    given = f"{folder}/"
+    moved = workflow.modifier.path_modifier.replace_prefix(given)
+    return folder if moved == given else os.path.abspath(moved)
+
+
+RESULTS = in_place(CAMPAIGN.results)
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
+# What jobs need of the workflow itself, in a form that Snakemake watches.
+SOURCES = ".snakemake/sources"
 # Where things are in the report, which sorts by name.
 REPORT = SimpleNamespace(
     answers="1 Answers",
-    figures="2 Figures of the paper",
+    figures="2 Figures",
     tables="3 Tables",
     accuracy="4 Accuracy",
     stability="5 Stability",
@@ -45,49 +59,21 @@ wildcard_constraints:
     figure=r"\w+",
 
 
-# On a cluster, tables and figures run where Snakemake does: they take seconds. The scenes of a batch are local to the
-# one Snakemake that runs them on their node: it would start another for each.
-localrules:
-    campaign,
-    whole_collection,
-    scale_table,
-    total_table,
-    campaign_figure,
-    field_figure,
-    march_figure,
-    rig_points,
-    rig_figure,
-    rig_schematic,
-    claims,
-    explorer,
-    accuracy_tables,
-    accuracy_figure,
-    stability_table,
-    stability_figure,
-
-
-if workflow.remote_exec:
-
-    localrules:
-        scene,
-        whole_scene,
-        reading,
-        march,
-        ladder,
-        calibrate,
-        stability_batch,
-
-
 def package_files(*modules):
     """Return a file that represents the package's files behind some modules: a job that lists it reruns when the content
     of one of them changes.
     """
-    return stamp(".snakemake/sources", *modules)
+    return local(stamp(SOURCES, *modules))
 
 
 def page_files(page):
-    """Return the templates, styles and scripts that a page is made of beside its code."""
-    return [os.path.relpath(path) for path in assets(page)]
+    """Return a file that represents the templates, styles and scripts of a page beside its code."""
+    return local(stamp_files(SOURCES, page, assets(page)))
+
+
+def script_copy(name):
+    """Return a script of the workflow as a file of the working folder, which may be anywhere."""
+    return local(copy_of(SOURCES, workflow.source_path(f"../scripts/{name}")))
 
 
 def scene_file(name):
@@ -170,7 +156,7 @@ def criteria(campaign):
     fields = campaign.figures.fields
     return {
         "aspect": campaign.aspect,
-        "studied": list(campaign.aspect_study.pressures),
+        "studied": list(getattr(campaign.aspect_study, "pressures", ())),
         "profiled": {
             "scale": [fields.scale],
             "velocity": list(fields.velocities),
@@ -178,8 +164,30 @@ def criteria(campaign):
             "aspect": [campaign.aspect],
         },
         "difference": campaign.claims.difference,
-        "saturation": campaign.transient.saturation,
+        "saturation": campaign.procedure()["saturation"],
         "total_pressure": campaign.figures.total_pressure,
+    }
+
+
+def own_name(name):
+    """Return the name that a rule has in this workflow, given the one that a module gives it."""
+    before, _, after = workflow.modifier.modify_rulename("*").partition("*")
+    return name.removeprefix(before).removesuffix(after) or name
+
+
+def made_for_a_config():
+    """Return what the present config makes that another may not, by rule."""
+    pages = [path.removesuffix("csv") + "html" for path in TABLES]
+    return {
+        **dict.fromkeys(["scale_table", "total_table"], [*TABLES, *pages]),
+        **dict.fromkeys(
+            ["campaign_figure", "field_figure", "total_figure", "whole_figure"]
+            + ["rig_figure", "rig_schematic", "march_figure"],
+            [*FIGURES, *MARCH_FIGURE],
+        ),
+        "rig_points": RIG_TABLES,
+        "claims": CLAIM_FILES,
+        **({} if WHOLE else {"whole_collection": []}),
     }
 
 
@@ -188,22 +196,37 @@ def follow(workflow):
     output = workflow.output_settings
     quiet = output.quiet or set()
     stream = sys.stdout if output.stdout else sys.stderr
+    # A module may give its rules other names, and the workflow around it has rules of its own.
+    own = {rule.name: own_name(rule.name) for rule in workflow.modifier.rules}
+    costs = Costs.of(CAMPAIGN)
     run = RunLog(
         RESULTS,
-        targets=[rule.name for rule in workflow.rules if not rule.output],
+        targets=[own[rule.name] for rule in workflow.modifier.rules if not rule.output],
+        rules=own,
         tables=TABLES,
         first=[
             f"{RESULTS}/{path}"
             for path in (
-                "claims.html",
+                *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
             )
         ],
         dry=lambda: workflow.dryrun,
+        touch=lambda: workflow.touch,
+        threads=lambda: workflow.use_threads,
         seconds=jobs.seconds,
         stream=None if Quietness.ALL in quiet else stream,
+        opening=lambda: understood(CAMPAIGN, OWN_CAMPAIGN),
+        expected=lambda rule: costs.job(rule, kind(rule)),
+        at_once=lambda: workflow.resource_settings.cores or 1,
+        leftovers=lambda: remove_leftovers(
+            ".snakemake/metadata",
+            RESULTS,
+            [*made_for_a_config()],
+            [path for paths in made_for_a_config().values() for path in paths],
+        ),
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run

@@ -13,7 +13,7 @@ rule explorer:
     input:
         package_files("rubfric.pages.explorer.data", "rubfric.pages.explorer.page"),
         page_files("explorer"),
-        script="workflow/scripts/build_explorer.py",
+        script=script_copy("build_explorer.py"),
         campaign=rules.campaign.output[0],
         table=rules.total_table.output.table,
         whole=WHOLE_COLLECTION,
@@ -26,6 +26,7 @@ rule explorer:
         f"{RESULTS}/explorer.html",
     log:
         f"{RESULTS}/logs/explorer.log",
+    localrule: True
     params:
         about={
             "aspect": CAMPAIGN.aspect,

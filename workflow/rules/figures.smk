@@ -1,13 +1,12 @@
-# The paper's figures: name, then the arguments of its draw function. Figs 2 and 4 show the fields of a few scenes.
-STUDY = {
+# The figures: name, then the arguments of its draw function. Figs 2 and 4 show the fields of a few scenes.
+STUDY = CAMPAIGN.aspect_study and {
     "scales": list(CAMPAIGN.aspect_study.scales),
     "pressures": list(CAMPAIGN.aspect_study.pressures),
     "aspects": list(CAMPAIGN.aspect_study.aspects),
 }
 CAMPAIGN_FIGURES = {
-    "fig1": STUDY,
-    "fig3": STUDY,
-    "fig6": {"aspect": CAMPAIGN.aspect},
+    **({"fig1": STUDY, "fig3": STUDY} if STUDY else {}),
+    "fig6": {"aspect": CAMPAIGN.aspect, "micro": bool(CAMPAIGN.claims)},
 }
 FIELD_FIGURES = ["fig2", "fig4"]
 # The whole road: its friction, from the table of totals; and the block on it, light and heavy, slow to fast.
@@ -45,7 +44,7 @@ FIGURE_WORDS = {
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
 }
-RIG_FIGURES = ["fig8", "fig9"]
+RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
     for figure in sorted(
@@ -61,7 +60,7 @@ FIGURES = [
 rule campaign_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=rules.campaign.output[0],
     output:
         **pictures(
@@ -73,6 +72,7 @@ rule campaign_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(CAMPAIGN_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
         digests=[COLLECTED],
@@ -93,7 +93,7 @@ rule campaign_figure:
 rule field_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_figure.py",
+        script=script_copy("draw_figure.py"),
         results=[scene_file(name) for name in CAMPAIGN.field_scenes()],
     output:
         **pictures(
@@ -105,6 +105,7 @@ rule field_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(FIELD_FIGURES),
+    localrule: True
     params:
         digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
     message:
@@ -121,15 +122,10 @@ rule field_figure:
         )
 
 
-localrules:
-    total_figure,
-    whole_figure,
-
-
 rule total_figure:
     input:
         lambda wildcards: DRAWN_BY[wildcards.figure],
-        script="workflow/scripts/draw_total.py",
+        script=script_copy("draw_total.py"),
         table=rules.total_table.output.table,
         campaign=rules.campaign.output[0],
     output:
@@ -142,6 +138,7 @@ rule total_figure:
         f"{RESULTS}/logs/figures/{{figure}}.log",
     wildcard_constraints:
         figure="|".join(TOTAL_FIGURES),
+    localrule: True
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
@@ -163,7 +160,7 @@ rule total_figure:
 rule whole_figure:
     input:
         DRAWN_BY["fig11"],
-        script="workflow/scripts/draw_whole.py",
+        script=script_copy("draw_whole.py"),
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:
         **pictures(
@@ -171,6 +168,7 @@ rule whole_figure:
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
+    localrule: True
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
     message:

@@ -8,12 +8,13 @@ COLLECTED = fingerprint(sorted(DIGESTS))
 rule scene:
     input:
         package_files("rubfric.simulation"),
-        script="workflow/scripts/simulate_scene.py",
+        script=script_copy("simulate_scene.py"),
     output:
         scene_file("{scene}"),
     log:
         f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
     priority: 5
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
         version=rubfric.__version__,
@@ -26,7 +27,7 @@ rule scene:
 rule campaign:
     input:
         package_files("rubfric.results.campaign"),
-        script="workflow/scripts/collect_campaign.py",
+        script=script_copy("collect_campaign.py"),
         scenes=scene_files,
     output:
         report(
@@ -39,6 +40,7 @@ rule campaign:
         mark=f"{RESULTS}/collected/{fingerprint(DIGESTS)}",
     log:
         f"{RESULTS}/logs/campaign.log",
+    localrule: True
     params:
         digests=DIGESTS,
     message:

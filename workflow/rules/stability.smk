@@ -10,13 +10,14 @@ BATCHES = [str(number) for number in range(-(-len(EXTREMES) // CASES_PER_JOB))]
 rule stability_batch:
     input:
         package_files("rubfric.studies.stability.report"),
-        script="workflow/scripts/try_extremes.py",
+        script=script_copy("try_extremes.py"),
     output:
         f"{RESULTS}/stability/batches/{{batch}}.csv",
     log:
         f"{RESULTS}/logs/stability/{{batch}}.log",
     wildcard_constraints:
         batch=r"\d+",
+    localrule: workflow.remote_exec
     params:
         cases=lambda wildcards: [
             case.parameters()
@@ -32,7 +33,7 @@ rule stability_batch:
 rule stability_table:
     input:
         package_files("rubfric.studies.stability.report"),
-        script="workflow/scripts/tabulate_stability.py",
+        script=script_copy("tabulate_stability.py"),
         batches=[f"{STABILITY}/batches/{batch}.csv" for batch in BATCHES],
     output:
         table=report(
@@ -45,6 +46,7 @@ rule stability_table:
         page=f"{RESULTS}/stability/stability.md",
     log:
         f"{RESULTS}/logs/stability/table.log",
+    localrule: True
     message:
         "Stability: {output.page}"
     run:
@@ -60,7 +62,7 @@ rule stability_table:
 rule stability_figure:
     input:
         package_files("rubfric.figures.stability"),
-        script="workflow/scripts/draw_table_figure.py",
+        script=script_copy("draw_table_figure.py"),
         table=rules.stability_table.output.table,
     output:
         **pictures(
@@ -71,6 +73,7 @@ rule stability_figure:
         ),
     log:
         f"{RESULTS}/logs/figures/stability.log",
+    localrule: True
     message:
         "Drawing the map of stability"
     run:

@@ -1,4 +1,5 @@
 # Tables of the campaign.
+TITLE = f"Friction of rubber {RUBBER} on road {ROAD}"
 TABLES = [
     *(f"{RESULTS}/tables/friction_scale_{scale}.csv" for scale in CAMPAIGN.scales),
     f"{RESULTS}/tables/friction_total.csv",
@@ -9,7 +10,7 @@ rule scale_table:
     input:
         package_files("rubfric.results.tables", "rubfric.pages.table"),
         page_files("table"),
-        script="workflow/scripts/tabulate_scale.py",
+        script=script_copy("tabulate_scale.py"),
         campaign=rules.campaign.output[0],
     output:
         table=report(
@@ -28,7 +29,9 @@ rule scale_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_scale_{{scale}}.log",
+    localrule: True
     params:
+        title=TITLE,
         collected=COLLECTED,
     message:
         "Friction on scale {wildcards.scale}: {output.table}"
@@ -41,6 +44,7 @@ rule scale_table:
             campaign=input.campaign,
             collected=params.collected,
             scale=int(wildcards.scale),
+            title=params.title,
         )
 
 
@@ -50,7 +54,7 @@ rule total_table:
             "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
         ),
         page_files("table"),
-        script="workflow/scripts/tabulate_total.py",
+        script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
     output:
@@ -74,8 +78,10 @@ rule total_table:
         ),
     log:
         f"{RESULTS}/logs/tables/friction_total.log",
+    localrule: True
     params:
         road=CAMPAIGN.whole_parameters(),
+        title=TITLE,
         collected=[COLLECTED, WHOLE_COLLECTED],
     message:
         "Friction of the whole road: {output.table}"
@@ -89,6 +95,7 @@ rule total_table:
             whole=list(input.whole),
             collected=params.collected,
             road=params.road,
+            title=params.title,
         )
 
 

@@ -24,12 +24,13 @@ WHOLE_COLLECTED = whole_fingerprint(WHOLE_DIGESTS)
 rule whole_scene:
     input:
         package_files("rubfric.simulation", *CHOOSING),
-        script="workflow/scripts/simulate_whole.py",
+        script=script_copy("simulate_whole.py"),
     output:
         whole_file("{whole}"),
     log:
         f"{RESULTS}/logs/whole/{RUBBER}/{ROAD}/{{whole}}.log",
     priority: 5
+    localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
         road=CAMPAIGN.whole_parameters() if CHOOSING else {},
@@ -49,7 +50,7 @@ rule whole_scene:
 rule whole_collection:
     input:
         package_files("rubfric.results.campaign", "rubfric.results.draws"),
-        script="workflow/scripts/collect_whole.py",
+        script=script_copy("collect_whole.py"),
         scenes=whole_files,
     output:
         report(
@@ -61,6 +62,7 @@ rule whole_collection:
         mark=WHOLE_MARK,
     log:
         f"{RESULTS}/logs/whole.log",
+    localrule: True
     params:
         scenes=WHOLE_DIGESTS,
     message:

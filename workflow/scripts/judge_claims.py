@@ -25,7 +25,7 @@ def main(
     totals: str,
     profiles: list[str],
     marches: list[str],
-    points: str,
+    points: list[str],
     readings: dict[str, list[str]],
     digests: dict[str, Any],
     roads: dict[str, dict[str, Any]],
@@ -40,7 +40,7 @@ def main(
         Paths of ``claims`` and ``evidence`` (CSV) and of the ``page`` (HTML).
     campaign, totals, profiles, marches, points : str or list of str
         Paths of the collection of all scenes (netCDF), of the table of totals (CSV), of scenes and marches (netCDF),
-        and of the table of the test rig (CSV).
+        and of the table of the test rig (CSV), or nothing.
     readings : dict of str to list of str
         Paths of the observations (CSV) of each other reading.
     digests : dict
@@ -57,7 +57,7 @@ def main(
         read(campaign, digests["campaign"]),
         read_table(totals, WORDS),
         *(map(dataset.read, paths, digests[name]) for name, paths in (("profiles", profiles), ("marches", marches))),
-        read_table(points, ("run", "kind", "source")),
+        read_table(points[0], ("run", "kind", "source")) if points else None,
         {
             reading: pd.concat([observations(path, digests["readings"][reading]) for path in paths], ignore_index=True)
             for reading, paths in readings.items()

@@ -1,6 +1,6 @@
 """Reduce measured runs of the rig to friction over speed and pressure; without any, those of the virtual rig."""
 
-from rubfric.config.models import RigChoice
+from rubfric.config.rig import RigChoice
 from rubfric.results.friction_map import FrictionMap
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table

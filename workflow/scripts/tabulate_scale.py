@@ -6,7 +6,7 @@ from rubfric.results.campaign import read
 from rubfric.results.tables import scale_table, write_table
 
 
-def main(output: str, page: str, campaign: str, collected: str, scale: int) -> None:
+def main(output: str, page: str, campaign: str, collected: str, scale: int, title: str) -> None:
     """Write all scenes of one scale.
 
     Parameters
@@ -19,6 +19,8 @@ def main(output: str, page: str, campaign: str, collected: str, scale: int) -> N
         What that is known by.
     scale : int
         The scale, 1 being the coarsest.
+    title : str
+        Of the campaign.
     """
     gathered = read(campaign, collected)
     table = scale_table(gathered, scale)
@@ -29,4 +31,4 @@ def main(output: str, page: str, campaign: str, collected: str, scale: int) -> N
         "Friction by three routes, its estimated absolute error, mesh and contact; warnings is the number of warnings "
         "in the log of the scene."
     )
-    write_page(table_page(table, f"Friction on scale {scale}", words, group="pressure_MPa"), page)
+    write_page(table_page(table, f"{title}: scale {scale}", words, group="pressure_MPa"), page)

@@ -11,7 +11,15 @@ from rubfric.results.totals import total_table
 from rubfric.results.whole_road import WholeRoad
 
 
-def main(output: str, page: str, campaign: str, whole: list[str], collected: list[str], road: dict[str, Any]) -> None:
+def main(
+    output: str,
+    page: str,
+    campaign: str,
+    whole: list[str],
+    collected: list[str],
+    road: dict[str, Any],
+    title: str,
+) -> None:
     """Write the friction of each scale and of the whole road, by all ways.
 
     Parameters
@@ -26,6 +34,8 @@ def main(output: str, page: str, campaign: str, whole: list[str], collected: lis
         What these collections are known by.
     road : dict
         The parameters of ``WholeRoad``.
+    title : str
+        Of the campaign.
     """
     about = WholeRoad.from_parameters(road)
     table = total_table(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
@@ -40,4 +50,4 @@ def main(output: str, page: str, campaign: str, whole: list[str], collected: lis
         "finite-strain law. The spreadsheet has the errors of the other ways too."
     )
     shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
-    write_page(table_page(shown, "Friction of the whole road", words, group="pressure_MPa"), page)
+    write_page(table_page(shown, f"{title}: all scales", words, group="pressure_MPa"), page)

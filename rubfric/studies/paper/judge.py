@@ -53,7 +53,7 @@ def judge(
     totals: pd.DataFrame,
     profiles: Iterable[xr.Dataset],
     marches: Iterable[xr.Dataset],
-    points: pd.DataFrame,
+    points: pd.DataFrame | None,
     readings: Mapping[str, pd.DataFrame],
     roads: Mapping[str, WholeRoad],
     criteria: Criteria,
@@ -68,8 +68,8 @@ def judge(
         Of the campaign, as from ``rubfric.results.totals.total_table``.
     profiles, marches : iterables of xarray.Dataset
         Results of the scenes whose depth is looked at, and of marches.
-    points : pandas.DataFrame
-        Points of the test rig.
+    points : pandas.DataFrame, optional
+        Points of the test rig, where there is one.
     readings : mapping of str to pandas.DataFrame
         Observations in each other reading of the paper, a row per scene.
     roads : mapping of str to WholeRoad
@@ -86,10 +86,16 @@ def judge(
         *total_evidence(totals, campaign.sel(aspect=criteria.aspect), criteria.difference),
         *depth_evidence(table(map(profile_row, profiles)), criteria.difference),
         *(march_evidence(march, criteria.saturation) for march in marches),
-        *rig_evidence(points),
+        *(rig_evidence(points) if points is not None else ()),
     ]
     evidence = {AS_CONFIGURED: own}
-    notes = {AS_CONFIGURED: {"C5": march_note(own), "C8": rig_note(points), "C9": total_note(totals)}}
+    notes = {
+        AS_CONFIGURED: {
+            "C5": march_note(own),
+            "C8": rig_note(points) if points is not None else "",
+            "C9": total_note(totals),
+        }
+    }
     for reading, rows in readings.items():
         observed = over_axes(rows)
         sums = total_table(observed, None, roads[reading]).assign(**dict.fromkeys(TOTAL, np.nan))

@@ -11,6 +11,8 @@ from rubfric.studies.paper.claims import CLAIMS, Evidence
 
 HOLDS, IN_PART, FAILS, UNDECIDED = "holds", "holds in part", "does not hold", "not decided"
 EVERY = "all"
+# The claim whose parts are ways to the same quantity.
+_SAME = "C7"
 # What a verdict ends with where it rests on a simulated measurement.
 SIMULATED = " (simulated)"
 
@@ -54,7 +56,9 @@ def claims_table(
     """Return the verdict on each claim, in each reading, over all pressures and at each of them.
 
     A claim *holds* where every number that can be decided supports it, and more than half can be; it *does not hold*
-    where none does, and else *holds in part*; ``not decided`` where there is no number, or none beyond its error.
+    where none does, and else *holds in part*; ``not decided`` where there is no number, or none beyond its error. A
+    part without any number, such as a maximum over two speeds, leaves a claim to hold in part at most; of C7 the parts
+    are two ways to the same total.
 
     Parameters
     ----------
@@ -90,9 +94,15 @@ def claims_table(
 def _row(name: str, reading: str, pressure: float | str, evidence: Sequence[Evidence], note: str) -> dict[str, object]:
     claim = CLAIMS[name]
     simulated = SIMULATED if any(one.simulated for one in evidence) else ""
+    found = verdict([one.outcome for one in evidence])
+    missing = set(claim.parts) - {one.part for one in evidence}
+    if found == HOLDS and pressure == EVERY and missing and name != _SAME:
+        found = IN_PART
+        parts = ", ".join(part for part in claim.parts if part in missing)
+        note = f"{note} Nothing that was run decides: {parts}.".strip()
     row: dict[str, object] = {
         **{"claim": name, "figure": claim.figure, "says": claim.says, "reading": reading, "pressure_MPa": pressure},
-        "verdict": verdict([one.outcome for one in evidence]) + simulated,
+        "verdict": found + simulated,
         **{word: sum(one.outcome == word for one in evidence) for word in ("yes", "no", "open")},
         "parts": _parts(name, evidence),
         "note": note,

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from rubfric.config.overlay import overlaid, read_yaml
+from rubfric.config.campaign import load
+from rubfric.config.default import PAPER
+from rubfric.config.overlay import as_typed, overlaid, read_yaml
 from rubfric.errors import InvalidInput
 
 
@@ -47,6 +50,29 @@ def test_mappings_are_merged_and_lists_replaced(tmp_path: Path) -> None:
     assert overlaid([below, above], ()) == {"a": {"b": 1, "c": [3]}, "d": 1}
     with pytest.raises(InvalidInput, match=r"^no config was given"):
         overlaid([], ())
+
+
+def test_mapping_takes_the_place_of_a_file_and_is_left_as_it_is(tmp_path: Path) -> None:
+    below, above = write(tmp_path, "a: {b: 1, c: [1, 2]}\nd: 1\n"), {"a": {"c": (3,)}}
+    assert overlaid([below, above], ()) == {"a": {"b": 1, "c": (3,)}, "d": 1}
+    assert above == {"a": {"c": (3,)}}
+    campaign = load()
+    assert load(PAPER, {"plane": "strain"}) == replace(campaign, plane="strain")
+    assert load({"plane": "strain"}) == load(PAPER, {"plane": "strain"})
+    assert load(write(tmp_path, "plane: strain\n")) == load({"plane": "strain"})
+    assert load(read_yaml(PAPER)) == campaign
+
+
+def test_entries_of_the_command_line_are_the_numbers_they_were_written_as() -> None:
+    # What Snakemake makes of --config 'a={"b": 0.5, "c": [1, 1e-3], "d": null, "e": word}' f=null
+    given = {"a": {"b": "0.5", "c": ["1", "1e-3"], "d": "null", "e": "word"}, "f": "null"}
+    config = {**given, "g": "0.5", "h": {"b": "0.5"}}  # g and h are of a file, where quotes were meant
+    typed = as_typed(config, given)
+    assert typed["a"] == {"b": 0.5, "c": [1, 1e-3], "d": None, "e": "word"}
+    assert isinstance(typed["a"]["c"][0], int)
+    assert typed == {"a": typed["a"], "f": None, "g": "0.5", "h": {"b": "0.5"}}
+    # A config that is no longer what was given there is left alone.
+    assert as_typed({"a": {"b": "0.7"}}, given) == {"a": {"b": "0.7"}}
 
 
 def test_lists_nested_without_end_are_no_yaml(tmp_path: Path) -> None:

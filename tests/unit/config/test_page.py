@@ -70,7 +70,8 @@ def test_every_key_has_a_meaning_and_every_quantity_a_unit(row: list[str]) -> No
         "between -1 and 0.5, both excluded | zhou2019: `0.49` |",
         "| `roads.*[].amplitude` | Peak-to-mean height a; zero is a flat road. | mm | number from 0 to 1.0e+30 | "
         "zhou2019: 0.015, 0.006, 0.003, 0.002 |",
-        "| `rig.virtual.seed` | Seed of the noise. | – | whole number from 0 to 2147483648 | `2019` |",
+        "| `rig.virtual.seed` | Seed of the noise. | – | whole number from 0 to 2147483648; may be left out, for "
+        "`2019` | `2019` |",
     ],
 )
 def test_some_rows(row: str) -> None:

@@ -87,6 +87,7 @@ def test_known_load_is_an_option(simulated: Path, tmp_path: Path, capsys: pytest
         (["reduce", "absent.csv", "--area", 1], 2, "absent.csv"),
         (["reduce", "RUN"], 2, "area is not given, but pressure needs the nominal area of the rubber, mm²"),
         (["reduce", "RUN", "--area", -1], 2, "area is -1 mm², but must be greater than 0"),
+        (["reduce", "RUN", "--area", 1e-4], 2, "mm²: it is probably in m², 100 mm²"),
         (["reduce", "RUN", "--area", 1, "--normal", 0], 2, "normal is 0 N, but must be greater than 0"),
         (["reduce", "RUN", "--area", 1, "--traction", "rope"], 2, "traction is rope, so sled_mass must be given"),
         (["reduce", "RUN", "--columns", "absent.yaml"], 2, "absent.yaml"),

@@ -64,6 +64,7 @@ def test_options_lie_above_the_file(tmp_path: Path) -> None:
         ("tare: {from: 2}", r"tare is {'from': 2}, but must hold from and to \(s\), or normal and traction \(N\)"),
         ("bearing: {force: 1, file: a.csv}", "bearing has both a force and a file"),
         ("bearing: {force: -1}", "bearing.force is -1, but must be at least 0"),
+        ("bearing: {file: $NOWHERE/a.csv}", "bearing.file is .*, but the environment variable NOWHERE is not set"),
         ("columns: {load: Fz}", "columns has the unknown key 'load'; allowed are time, normal, "),
         ("columns: {normal: 0}", "columns.normal is 0, but must be the heading of a column, or its number from 1 on"),
         ("units: {normal: V}", "units.normal is 'V', but must be one of N, kN"),

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rubfric.config.models import RigChoice, VirtualRig
+from rubfric.config.rig import RigChoice, VirtualRig
 from rubfric.errors import InvalidInput
 from rubfric.results.friction_map import FrictionMap
 from rubfric.rig.files import rig_files

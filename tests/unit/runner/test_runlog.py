@@ -32,8 +32,10 @@ class Snakemake:
         extra = about if event is None else about | {"event": LogEvent[event]}
         self.logger.info(message, extra=extra)
 
-    def start(self, job: int, scene: str | None = None, rule: str = "scene", message: str | None = None) -> None:
-        about = {"rule_name": rule, "rule_msg": scene or message, "log": [f"logs/{job}.log"]}
+    def start(
+        self, job: int, scene: str | None = None, rule: str = "scene", message: str | None = None, output: str = ""
+    ) -> None:
+        about = {"rule_name": rule, "rule_msg": scene or message, "log": [f"logs/{job}.log"], "output": [output]}
         self.send("JOB_INFO", "job info", jobid=job, **about)
 
     def finish(self, job: int) -> None:
@@ -76,12 +78,29 @@ def run(tmp_path: Path, snakemake: Snakemake) -> Iterator[Run]:
     made.log.close()
 
 
+def test_it_opens_with_what_is_understood_and_how_long_it_takes(tmp_path: Path, snakemake: Snakemake) -> None:
+    options = {"opening": lambda: ["a rubber"], "expected": lambda rule: 60.0, "at_once": lambda: 2}
+    for made in (False, True):  # without a table nothing is removed
+        run = Run(tmp_path / str(made), snakemake, **options, leftovers=lambda: ["removed: a table"])
+        snakemake.send("RUN_INFO", "Job stats", stats={"total_table": 4})
+        assert run.said == ["  a rubber", "  To do: 4 tables; about 2 min"]
+        run.log.begin()
+        assert run.written[1:] == run.said
+        if made:
+            snakemake.start(0, rule="total_table")
+            snakemake.finish(0)
+        run.log.succeed()
+        assert ("  removed: a table" in run.said) == made
+        snakemake.logger.removeHandler(run.log)
+
+
 def test_plan_stages_and_end_are_reported(run: Run, snakemake: Snakemake) -> None:
     snakemake.send("RUN_INFO", "Job stats", stats=STATS)
     run.log.begin()
     for job, scene in enumerate(["a", "b", "c"]):
         snakemake.start(job, scene)
         snakemake.finish(job)
+    (run.folder / "tables").mkdir()
     snakemake.start(3, rule="total_table", message="Friction of all scales: a path")
     snakemake.finish(3)
     snakemake.start(4, rule="all")
@@ -91,12 +110,14 @@ def test_plan_stages_and_end_are_reported(run: Run, snakemake: Snakemake) -> Non
     assert run.said[1].startswith("  3 of 3 scenes; about 5 s left; slowest ")
     assert run.said[2] == "  Done in T: 3 scenes, 1 table"
     assert run.said[3].startswith("  slowest: ")
-    assert run.said[4].endswith(f"fields in {run.folder}/scenes")
-    assert run.written[1:] == run.stream.getvalue().splitlines()[1:]
+    assert run.said[4] == f"  tables are in {run.folder}/tables"
+    assert len(run.said) == 5
+    assert run.written[1:] == run.stream.getvalue().splitlines()
 
 
-def test_file_gathers_runs_each_with_its_date(run: Run, snakemake: Snakemake) -> None:
+def test_file_gathers_runs_each_with_its_date(tmp_path: Path, snakemake: Snakemake) -> None:
     for _ in range(2):
+        run = Run(tmp_path, snakemake)
         run.log.begin()
         run.log.succeed()
     heads = [line for line in run.written if not line.startswith(" ")]
@@ -130,7 +151,7 @@ def test_failure_on_a_cluster_is_reported_at_once_and_forgotten_when_another_att
     snakemake.start(0, "a")
     snakemake.finish(0)
     run.log.succeed()
-    assert "failed" not in run.said[-3]
+    assert not [line for line in run.said[2:] if "failed" in line]
 
 
 def test_group_that_failed_is_reported_at_once_and_its_jobs_at_the_end(run: Run, snakemake: Snakemake) -> None:
@@ -169,10 +190,10 @@ def test_interruption_names_no_failures(run: Run, snakemake: Snakemake) -> None:
 
 
 def test_run_with_nothing_to_do_names_the_places_and_writes_nothing(run: Run, snakemake: Snakemake) -> None:
+    for name in ("figures", "scenes"):
+        (run.folder / name).mkdir()
     snakemake.send(None, NOTHING_TO_BE_DONE_MSG)
-    assert run.said == [
-        f"  tables are in {run.folder}/tables, figures in {run.folder}/figures, fields in " + (f"{run.folder}/scenes")
-    ]
+    assert run.said == [f"  figures are in {run.folder}/figures, fields in {run.folder}/scenes"]
     assert not run.written
 
 
@@ -225,7 +246,7 @@ def test_lines_come_now_and_then(run: Run, snakemake: Snakemake, monkeypatch: py
 
 def test_measured_times_come_before_those_of_the_records(tmp_path: Path, snakemake: Snakemake) -> None:
     run = Run(tmp_path, snakemake, seconds={"logs/0.log": 12.0}.get)
-    snakemake.send("RUN_INFO", "Job stats", stats={"scene": 1, "total": 1})
+    snakemake.send("RUN_INFO", "Job stats", stats={"scene": 1, "march": 1, "total": 2})
     snakemake.start(0, "a")
     snakemake.finish(0)
     assert run.said[-1] == "  1 of 1 scene; slowest a 12.0 s"
@@ -240,20 +261,77 @@ def test_files_to_open_first_are_those_that_exist(tmp_path: Path, snakemake: Sna
     assert f"  open first: {names[1]}, {names[2]}" in run.said
 
 
-def test_tables_speak_only_of_the_run_that_wrote_them(
+def test_results_that_are_named_are_those_of_the_run(
     tmp_path: Path, snakemake: Snakemake, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runlog, "findings", lambda tables: ["a finding"])
-    run = Run(tmp_path, snakemake)
-    snakemake.send("RUN_INFO", "Job stats", stats={"scene": 1, "scale_table": 1, "total": 2})
+    monkeypatch.setattr(runlog, "findings", lambda tables: [f"of {path}" for path in tables])
+    old, new, fields = (str(tmp_path / name) for name in ("tables/old.csv", "tables/new.csv", "scenes/r/a.nc"))
+    for path in (old, new, fields, tmp_path / "figures" / "old.pdf"):
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).touch()
+    for stats, output, said in (
+        ({"scene": 1, "scenes": 1}, fields, [f"  fields are in {tmp_path}/scenes"]),
+        ({"scale_table": 1}, new, [f"  of {new}", f"  open first: {new}", f"  tables are in {tmp_path}/tables"]),
+    ):
+        run = Run(tmp_path, snakemake, targets=["all", "scenes"], tables=[old, new], first=[old, new])
+        snakemake.send("RUN_INFO", "Job stats", stats=stats)
+        snakemake.start(0, rule=next(iter(stats)), message="a", output=output)
+        snakemake.finish(0)
+        snakemake.logger.removeHandler(run.log)
+        assert [line for line in run.said if not line.startswith("  slowest")][-len(said) :] == said
+        assert not [line for line in run.said if old in line or "figures" in line]
+    # What is up to date is as good as made where everything was asked for.
+    run = Run(tmp_path, snakemake, tables=[old, new])
+    snakemake.send("RUN_INFO", "Job stats", stats={"fig8": 1, "all": 1})
+    snakemake.start(0, rule="fig8")
+    snakemake.finish(0)
+    assert f"  of {old}" in run.said
+
+
+def test_what_is_only_marked_is_not_said_to_be_computed(tmp_path: Path, snakemake: Snakemake) -> None:
+    run = Run(tmp_path, snakemake, touch=lambda: True, tables=[str(tmp_path / "table.csv")])
+    (tmp_path / "table.csv").write_text("friction_total\n0.2\n")
+    snakemake.send("RUN_INFO", "Job stats", stats={"scene": 1, "all": 1})
     snakemake.start(0, "a")
     snakemake.finish(0)
     run.log.succeed()
-    assert "  a finding" not in run.said
-    snakemake.start(1, rule="scale_table")
-    snakemake.finish(1)
-    run.log.succeed()
-    assert "  a finding" in run.said
+    assert run.said == [
+        "  To mark: 1 scene",
+        "  Nothing was computed: 1 scene marked as up to date (--touch), whatever config and code they were made with",
+    ]
+    assert run.written[1:] == run.said
+
+
+def test_module_reports_its_own_jobs_and_their_end(tmp_path: Path, snakemake: Snakemake) -> None:
+    own = {"soft_scene": "scene", "soft_all": "all"}
+    stats = {"soft_scene": 2, "soft_all": 1, "theirs": 3, "total": 6}
+    runs = []
+    for fates in ("ok", "xk"):
+        run = Run(tmp_path / fates, snakemake, rules=own)
+        runs.append(run)
+        snakemake.send("RUN_INFO", "Job stats", stats=stats)
+        for job, fate in enumerate(fates):
+            snakemake.start(job, f"scene{job}", rule="soft_scene")
+            snakemake.start(9, rule="theirs")
+            snakemake.finish(9)
+            (snakemake.fail if fate == "x" else snakemake.finish)(job)
+        run.log.close()
+        snakemake.logger.removeHandler(run.log)
+    done, failed = runs
+    assert done.said[0] == failed.said[0] == "  To do: 2 scenes"
+    assert done.said[2] == "  Done in T: 2 scenes"
+    assert failed.said[1] == "  Stopped after T: 1 failed; done: 1 scene"
+    assert sum("Done in" in line for line in done.written) == 1
+
+
+def test_module_that_is_not_asked_for_says_nothing(tmp_path: Path, snakemake: Snakemake) -> None:
+    run = Run(tmp_path, snakemake, rules={"soft_scene": "scene"})
+    snakemake.send("RUN_INFO", "Job stats", stats={"theirs": 3, "total": 3})
+    snakemake.start(0, rule="theirs")
+    snakemake.finish(0)
+    run.log.close()
+    assert not run.said
+    assert not run.written
 
 
 def test_full_disk_and_lost_terminal_do_not_stop_the_run(tmp_path: Path, snakemake: Snakemake) -> None:

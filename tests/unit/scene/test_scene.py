@@ -6,6 +6,7 @@ from dataclasses import asdict, fields, replace
 
 import pytest
 
+from rubfric.config.campaign import load
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
@@ -178,8 +179,11 @@ def test_kinematics_is_left_to_the_program_by_default(paper_scene: SceneMaker) -
     parameters = paper_scene(1.0, 5.0).parameters()
     del parameters["kinematics"], parameters["plane"]
     road, rubber = SineScale(**parameters["road"]), Material(**parameters["material"])
-    scene = Scene(1, road, 1.0, 5.0, 0.75, rubber)
+    scene = Scene(1, road, 1.0, 5.0, material=rubber)
     assert (scene.plane, scene.kinematics) == ("stress", "auto")
+    assert scene.aspect == load().aspect
+    with pytest.raises(InvalidInput, match=r"^the scene lacks its material"):
+        Scene(1, road, 1.0, 5.0)
 
 
 def test_name_does_not_tell_the_kinematics(paper_scene: SceneMaker) -> None:

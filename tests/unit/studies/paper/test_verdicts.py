@@ -82,19 +82,28 @@ def test_deciding_number_is_the_farthest_on_the_wrong_side() -> None:
 
 def test_where_nothing_contradicts_the_undecided_number_is_told() -> None:
     yes, open_ = peak(0.5, 5.0, "C6"), peak(0.001, 1.0, "C6")
+    varies = Evidence("C6", "varies with pressure", 1, None, 10.0, 0.9, 0.01, 0.05, "above")
     row = claims_table({AS_CONFIGURED: [yes, open_]}, 5.0, {}).set_index(["claim", "pressure_MPa"]).loc["C6", EVERY]
     assert (row["verdict"], row["value"]) == (IN_PART, 0.001)
-    row = (
-        claims_table({AS_CONFIGURED: [yes, yes, open_]}, 5.0, {}).set_index(["claim", "pressure_MPa"]).loc["C6", EVERY]
-    )
+    claims = claims_table({AS_CONFIGURED: [yes, yes, open_, varies]}, 5.0, {})
+    row = claims.set_index(["claim", "pressure_MPa"]).loc["C6", EVERY]
     assert (row["verdict"], row["value"]) == (HOLDS, 0.5)
 
 
 def test_verdict_on_a_virtual_rig_says_that_it_is_simulated() -> None:
-    rises = Evidence("C8", "rises to a peak", None, 5.0, 100.0, 0.5, 0.01, 0.0, "above", simulated=True)
-    claims = claims_table({AS_CONFIGURED: [rises]}, 5.0, {})
+    rises, falls = (
+        Evidence("C8", part, None, 5.0, 100.0, 0.5, 0.01, 0.0, "above", simulated=True) for part in CLAIMS["C8"].parts
+    )
+    claims = claims_table({AS_CONFIGURED: [rises, falls]}, 5.0, {})
     assert claims.set_index(["claim", "pressure_MPa"]).loc[("C8", EVERY), "verdict"] == "holds (simulated)"
-    assert "● holds (simulated)" in claims_page(claims, evidence_table({AS_CONFIGURED: [rises]}), ABOUT)
+    assert "● holds (simulated)" in claims_page(claims, evidence_table({AS_CONFIGURED: [rises, falls]}), ABOUT)
+
+
+def test_claim_without_any_number_on_one_of_its_parts_holds_in_part() -> None:
+    varies = Evidence("C6", "varies with pressure", 1, None, 10.0, 0.9, 0.01, 0.05, "above")
+    for found, expected in (([varies], IN_PART), ([varies, peak(0.5, 5.0, "C6")], HOLDS)):
+        claims = claims_table({AS_CONFIGURED: found}, 5.0, {}).set_index(["claim", "pressure_MPa"])
+        assert claims.loc[("C6", EVERY), "verdict"] == expected
 
 
 def test_evidence_names_its_quantity() -> None:

@@ -1,0 +1,117 @@
+"""What a run says first: what it understood of the config, and how long it will take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from rubfric.config.campaign import Campaign
+from rubfric.scene.scene import Scene
+
+# CPU time of one job, s, as docs/performance.md has it for two cores of an AMD EPYC: mean of the paper's 224 scenes in
+# finite strain at 1 %, of its four marches, and of 42 scenes of the whole road, reduced to 1 %. Small strain and other
+# accuracies by the factors measured there.
+_SCENE, _WHOLE, _MARCH, _TABLE, _FIGURE, _OTHER = 0.56, 10.0, 17.0, 0.5, 0.9, 1.0
+_SMALL, _STEPS = 0.05, 64 * 64 * 12
+# Accuracy, and the time that it takes over that of 1 %.
+_ACCURACIES, _FACTORS = (0.002, 0.01, 0.05), (4.8, 1.0, 0.44)
+
+
+@dataclass(frozen=True)
+class Costs:
+    """CPU time that one job of each rule takes, s, as measured before; that of a scene by its weight."""
+
+    by_rule: Mapping[str, float]
+
+    @classmethod
+    def of(cls, campaign: Campaign) -> Costs:
+        """Return the costs of a campaign's jobs."""
+        scene = _weight(campaign.scene(1, campaign.velocities[0], campaign.pressures[0]))
+        whole = next(iter(campaign.whole_scenes().values()), None)
+        march = campaign.procedure()
+        steps = march["columns"] * march["steps_per_wavelength"] * march["wavelengths"] / _STEPS
+        # A reading's batch holds the scenes of one scale and speed.
+        reading = len(campaign.scenes()) / (len(campaign.scales) * len(campaign.velocities))
+        draft = campaign.presets[campaign.claims.preset].accuracy if campaign.claims else 0.05
+        return cls(
+            {
+                "scene": _SCENE * scene,
+                "whole_scene": _WHOLE * _weight(whole) if whole else 0.0,
+                "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
+                "reading": _SCENE * reading * _factor(draft) * 0.3,
+            }
+        )
+
+    def job(self, rule: str, kind: str) -> float:
+        """Return the time of one job of a rule that makes a ``table``, a ``figure`` or something else, s."""
+        return self.by_rule.get(rule) or {"table": _TABLE, "figure": _FIGURE}.get(kind, _OTHER)
+
+
+def _weight(scene: Scene) -> float:
+    """Return the cost of a scene over that of finite strain at 1 %."""
+    return _factor(scene.numerics.accuracy) * (_SMALL if scene.kinematics == "small" else 1.0)
+
+
+def _factor(accuracy: float) -> float:
+    """Return the time that an accuracy takes over that of 1 %, from log to log."""
+    logs = [math.log(value) for value in _ACCURACIES], [math.log(value) for value in _FACTORS]
+    return math.exp(float(np.interp(math.log(accuracy), *logs)))
+
+
+def understood(campaign: Campaign, own: bool) -> list[str]:
+    """Return what is understood of a config, a line each: rubber, road, frequencies, scenes, and what is doubtful.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    own : bool
+        Whether the config has a rubber, road or grid of its own.
+    """
+    extras = ("aspect_study", "transient", "rig", "claims")
+    off = [name for name in extras if getattr(campaign, name) is None]
+    others = [name for name in extras if name not in off]
+    grid = f"the grid and {', '.join(others)}" if others else "the grid only"
+    without = f", without {', '.join(off)} of the paper's: name them in the config to run them" if off else ""
+    lines = [
+        campaign.words().removesuffix("."),
+        *([f"a campaign of your own, {grid}{without}"] if own else []),
+        *_scales(campaign),
+        _moduli(campaign),
+        _scenes(campaign),
+    ]
+    return [*lines, *(f"UNLIKELY: {sentence}" for sentence in campaign.unlikely())]
+
+
+def _scales(campaign: Campaign) -> list[str]:
+    return [
+        f"scale {number}: wavelength {scale.wavelength:.4g} mm, amplitude {scale.amplitude:.4g} mm, "
+        f"steepest slope {scale.steepest_slope:.3g}"
+        for number, scale in enumerate(campaign.road, 1)
+    ]
+
+
+def _moduli(campaign: Campaign) -> str:
+    numbers = [scale.wavenumber for scale in campaign.road]
+    low, high = min(numbers) * campaign.velocities[0], max(numbers) * campaign.velocities[-1]
+    modulus = campaign.material.plane_modulus(np.geomspace(low, high, 64), "stress")
+    loss = modulus.imag / modulus.real
+    return (
+        f"the road excites the rubber at {low:.3g} to {high:.3g} rad/s, where E' is {modulus.real.min():.3g} to "
+        f"{modulus.real.max():.3g} MPa and the loss factor {loss.min():.2g} to {loss.max():.2g}"
+    )
+
+
+def _scenes(campaign: Campaign) -> str:
+    scales, speeds, loads = len(campaign.road), len(campaign.velocities), len(campaign.pressures)
+    grid, total = scales * speeds * loads, len(campaign.scenes())
+    parts = [f"{grid} scenes: {_many(scales, 'scale')} at {_many(speeds, 'speed')} and {_many(loads, 'load')}"]
+    parts += [f"{total - grid} more of the aspect study"] if total > grid else []
+    parts += [f"{whole} of the whole road"] if (whole := len(campaign.whole_scenes())) else []
+    return ", ".join(parts)
+
+
+def _many(number: int, what: str) -> str:
+    return f"{number} {what}{'s' if number != 1 else ''}"

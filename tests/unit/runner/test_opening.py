@@ -1,0 +1,63 @@
+"""What a run says first, and the time that it foresees from the first line on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rubfric.config.campaign import load
+from rubfric.runner.opening import Costs, understood
+from rubfric.runner.progress import Progress, kind
+
+CONFIG = Path(__file__).resolve().parents[3] / "config" / "config.yaml"
+OWN = """
+road: r
+roads: {r: [{amplitude: 15.0e-6, wavenumber: 35}]}
+grid: {velocities: [1, 10], pressures: [0.5]}
+"""
+
+
+def test_paper_is_understood() -> None:
+    lines = understood(load(CONFIG), own=False)
+    assert "scale 4: wavelength 0.02094 mm, amplitude 0.002 mm, steepest slope 0.6" in lines
+    assert lines[5] == (
+        "the road excites the rubber at 3.5 to 3e+06 rad/s, where E' is 4.17 to 337 MPa and the loss factor 0.019 to "
+        "1.7"
+    )
+    assert lines[6:] == [
+        "168 scenes: 4 scales at 7 speeds and 6 loads, 56 more of the aspect study, 42 of the whole road"
+    ]
+
+
+def test_own_campaign_says_what_is_off_and_what_is_unlikely(tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text(OWN)
+    lines = understood(load(CONFIG, tmp_path / "mine.yaml"), own=True)
+    assert lines[1].startswith("a campaign of your own, the grid only, without aspect_study, transient, rig, claims")
+    assert "2 scenes: 1 scale at 2 speeds and 1 load, 2 of the whole road" in lines
+    assert lines[-1].startswith("UNLIKELY: scale 1 of the road, ")
+    assert "in m, 0.015 mm?" in lines[-1]
+
+
+def test_costs_follow_accuracy_kinematics_and_steps(tmp_path: Path) -> None:
+    paths = {name: tmp_path / f"{name}.yaml" for name in ("draft", "small", "long")}
+    paths["draft"].write_text("numerics: {preset: draft}")
+    paths["small"].write_text("kinematics: small")
+    paths["long"].write_text("transient: {columns: 128}")
+    paper, draft, small, long = (Costs.of(load(CONFIG, *path)) for path in [(), *((one,) for one in paths.values())])
+    assert draft.job("scene", "scene") == pytest.approx(0.44 * paper.job("scene", "scene"))
+    assert small.job("scene", "scene") < 0.2 * paper.job("scene", "scene")
+    assert long.job("march", "march") == pytest.approx(2.0 * paper.job("march", "march"))
+    assert paper.job("fig_figure", kind("fig_figure")) > 0.0
+
+
+def test_time_left_is_known_at_once_and_follows_the_machine() -> None:
+    now = [0.0]
+    progress = Progress({"scene": 100}, lambda: now[0], expected=lambda rule: 2.0, at_once=2)
+    assert progress.remaining() == pytest.approx(100.0)
+    for number in range(50):  # a machine five times as fast
+        progress.start(number, "scene", f"scene{number}")
+        now[0] += 0.4
+        progress.finish(number)
+    assert progress.remaining() == pytest.approx(50 * 0.4 / 2, rel=0.15)
+    assert "about 10 s left" in progress.line()
