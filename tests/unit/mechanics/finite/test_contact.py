@@ -27,8 +27,9 @@ from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, SlopedSurface
+from rubfric.mechanics.finite.krylov import Krylov
 from rubfric.mechanics.finite.law import Inverted
-from rubfric.mechanics.finite.linearised import Linearised
+from rubfric.mechanics.finite.linearised import Linearised, scaling
 from rubfric.mechanics.finite.newton import Solved, newton
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
@@ -212,6 +213,36 @@ def test_rest_is_the_correction_at_given_contact_nodes(plane: str) -> None:
     np.testing.assert_allclose((correction.above + linear.along_normals(step))[others], 0.0, atol=1e-12 * AMPLITUDE)
     assert pressure.mean() == pytest.approx(0.5, rel=1e-12)
     assert np.array_equal(pressure != 0.0, others)
+
+
+@PLANES
+@RUBBERS
+def test_scale_changes_the_way_to_a_direction_but_not_the_direction(plane: str, rubber: Material) -> None:
+    problem, found = solved(plane, rubber, 4.0)
+    finite, more = problem.finite, load(4.4)
+    circulant = averaged(problem, found.fields, 4.4)
+    touching = found.correction.contact.touching
+    correction = problem.correct(circulant, found.fields, more, touching)
+    stiffness = finite.stiffness(found.fields, correction.state)
+    local = scaling(finite, stiffness, 1)
+    assert np.ptp(local.displacement[0]) > 0.02
+    np.testing.assert_array_equal(local.displacement[-1], 1.0)
+    steps, pressures = [], []
+    for scale in (even(finite), local):
+        linear = Linearised(problem, circulant, stiffness, correction, more, touching, scale)
+        rest, held = linear.rest()
+        krylov = Krylov(lambda packed, by=linear: applied(problem, by, packed), problem.pack(rest), None, 80)
+        while krylov.residual > 1e-10:
+            krylov.grow()
+        steps.append(krylov.vector())
+        pressures.append(held + krylov.beside())
+    np.testing.assert_allclose(steps[1], steps[0], atol=1e-7 * np.abs(steps[0]).max())
+    np.testing.assert_allclose(pressures[1], pressures[0], atol=1e-7 * pressures[0].max())
+
+
+def applied(problem: SlidingContact, linear: Linearised, packed: Real) -> tuple[Real, Real]:
+    change, pressure = linear.change(problem.unpack(packed))
+    return problem.pack(change), pressure
 
 
 @PLANES
