@@ -13,7 +13,9 @@ Newton's method and Krylov iterations the same work for any Poisson's ratio up t
 from __future__ import annotations
 
 import copy
+import dataclasses
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +26,9 @@ from rubfric.mechanics.finite.law import Deformation, Inverted, Tangent, deform,
 from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
+
+# Points that are worked out at once: what is kept of them on the way, some hundred numbers, fits into a cache.
+_CACHED = 4096
 
 
 @dataclass(frozen=True)
@@ -219,7 +224,20 @@ class FiniteBlock:
             Of these fields.
         """
         _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
-        return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
+        size, shape = self.unknowns, state.deformation.area.shape
+        whole = Tangent(*(np.empty((*parts, *shape)) for parts in ((size, size), (size, 4), (4, size), (size,))))
+        for rows in self.row_slices():
+            points = state.deformation.of_rows(rows)
+            part = tangent(points, state.driving[..., rows, :], state.volumetric[..., rows, :])
+            for field in dataclasses.fields(Tangent):
+                getattr(whole, field.name)[..., rows, :] = getattr(part, field.name)
+        return Stiffness(whole, curvature)
+
+    def row_slices(self) -> Iterator[slice]:
+        """Yield the rows of cells a few at a time, so that what is worked out for them stays in the cache."""
+        few = max(1, _CACHED // (self.points * self.block.columns))
+        for first in range(0, self.block.rows, few):
+            yield slice(first, min(first + few, self.block.rows))
 
     def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
         """Return the change of the stresses, MPa, and of the volume's excess under a small step.

@@ -19,7 +19,7 @@ C_zz S_zz, which vanishes in plane stress.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -64,6 +64,10 @@ class Deformation:
     def isochoric_squared(self) -> Real:
         """Cb, shape (4, ...)."""
         return self.isochoric * self.squared
+
+    def of_rows(self, rows: slice) -> Deformation:
+        """Return the points of some rows, the last axis but one."""
+        return Deformation(*(getattr(self, field.name)[..., rows, :] for field in fields(self)))
 
 
 @dataclass(frozen=True)

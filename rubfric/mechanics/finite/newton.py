@@ -12,7 +12,7 @@ import numpy as np
 
 from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
-from rubfric.mechanics.finite.block import Fields
+from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.direction import MOST_KRYLOV, Direction, newton_direction
@@ -152,12 +152,13 @@ def _iterate(
 ) -> Solved:
     """Do what ``newton`` does, and keep the sizes of u - T(u) in ``residuals``."""
     fields, correction, krylov = start, None, 0
+    stiffness: Stiffness | None = None  # of the fields
     while True:
         steps = max(0, len(residuals) - 1)
         try:
             if circulant is None:
-                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant, correction = Circulant(problem.finite, average, load.pressure), None
+                stiffness = problem.finite.stiffness(fields, problem.finite.stressed(fields))
+                circulant, correction = Circulant(problem.finite, stiffness, load.pressure), None
             if correction is None:
                 correction = problem.correct(circulant, fields, load, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
@@ -170,11 +171,12 @@ def _iterate(
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
         if len(residuals) > _WATCHED and size > _SLOWEST * residuals[-1 - _WATCHED]:
             raise Stalled("the residual falls too slowly", len(residuals) - 1, krylov, size)
-        stiffness = problem.finite.stiffness(fields, correction.state)
+        if stiffness is None:
+            stiffness = problem.finite.stiffness(fields, correction.state)
         found = newton_direction(
             problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals)
         )
-        krylov += found.krylov
+        krylov, stiffness = krylov + found.krylov, None
         ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))
         if ahead is None:
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
