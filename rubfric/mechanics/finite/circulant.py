@@ -12,6 +12,7 @@ the block is; where that matters, its top is held.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import fft
@@ -82,30 +83,16 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        slope = _slope(finite)
-        weighed = slope.conj() * finite.weights
-        volume = stiffness.points.volume.mean(axis=-1)[..., None]
-        bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
-        moduli = _moduli(finite, stiffness)
-        stress_by_pressure, volume_by_gradient = volume, volume
-        self._volume_stiffness: Complex | float = 1.0  # s
-        if finite.unknowns == 5:
-            self._thickness_compliance = 1.0 / moduli[4, 4]
-            column, row = moduli[:4, 4] * self._thickness_compliance, moduli[4, :4] * self._thickness_compliance
-            self._thickness_of_displacement, self._force_of_thickness = _caused(row, slope), _caused(column, weighed)
-            self._volume_of_thickness = volume[4] * self._thickness_compliance
-            self._thickness_of_volume = self._volume_of_thickness * bulk
-            self._volume_stiffness = 1.0 + bulk * self._cell_mean((volume[4] * self._volume_of_thickness)[None])[0]
-            stress_by_pressure = volume[:4] - column * volume[4]
-            volume_by_gradient = volume[:4] - row * volume[4]
-            moduli = moduli[:4, :4] - column[:, None] * moduli[4, :4]
-        self._volume_of_displacement = self._cell_mean(_caused(volume_by_gradient, slope)) / self._volume_stiffness
-        self._force_of_volume = _caused(stress_by_pressure, weighed)
-        if not finite.block.pointwise:
-            self._force_of_volume = self._force_of_volume.sum(axis=1, keepdims=True)
-        self._force_of_volume = self._force_of_volume * bulk
-        cells = _cells(moduli, slope, weighed)
-        cells += (self._volume_of_displacement * self._force_of_volume[:, None]).sum(axis=2)
+        parts = [_condensed(finite, stiffness, rows) for rows in finite.row_slices()]
+        whole = _Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True)))
+        del parts
+        self._thickness_compliance, self._volume_stiffness = whole.thickness_compliance, whole.volume_stiffness
+        self._thickness_of_displacement = whole.thickness_of_displacement
+        self._force_of_thickness, self._force_of_volume = whole.force_of_thickness, whole.force_of_volume
+        self._volume_of_thickness, self._thickness_of_volume = whole.volume_of_thickness, whole.thickness_of_volume
+        self._volume_of_displacement = whole.volume_of_displacement
+        cells = whole.cells
+        del whole
         self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface_response = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
@@ -129,7 +116,9 @@ class Circulant:
         thickness = fft.rfft(thickness_stress, axis=-1)
         volume = fft.rfft(volume_excess, axis=-1)
         if len(thickness):
-            volume = (volume + self._cell_mean(self._volume_of_thickness * thickness)[0]) / self._volume_stiffness
+            volume = (
+                volume + _cell_mean(self._finite, self._volume_of_thickness * thickness)[0]
+            ) / self._volume_stiffness
         pushed = (self._force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
             pushed += (self._force_of_thickness * thickness[0]).sum(axis=1)
@@ -177,10 +166,6 @@ class Circulant:
         columns = self._finite.block.columns
         return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
 
-    def _cell_mean(self, points: Complex) -> Complex:
-        """Return <x>: the points along the second axis, or their mean where the volume is that of the cell."""
-        return points if self._finite.block.pointwise else points.mean(axis=1, keepdims=True)
-
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
         answer, info = lapack.zgbtrs(
@@ -226,13 +211,78 @@ class Circulant:
         return factors, pivots
 
 
-def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
+class _Condensed(NamedTuple):
+    """Some rows of cells with thickness and volume condensed; rows are the last axis but one of every array.
+
+    Compliances and what causes what, as in ``Circulant``; those of the thickness are empty in plane strain. The cells
+    are of shape (4, 4, rows, n).
+    """
+
+    thickness_compliance: Complex
+    thickness_of_displacement: Complex
+    force_of_thickness: Complex
+    volume_of_thickness: Complex
+    thickness_of_volume: Complex
+    volume_stiffness: Complex
+    volume_of_displacement: Complex
+    force_of_volume: Complex
+    cells: Complex
+
+
+def _condensed(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> _Condensed:
+    """Condense thickness and volume in some rows of cells, as the equations of ``Circulant`` say."""
+    slope = _slope(finite, rows)
+    weighed = slope.conj() * finite.weights[:, rows]
+    volume = stiffness.points.volume[..., rows, :].mean(axis=-1)[..., None]
+    bulk = stiffness.curvature[..., rows, :].mean(axis=-1)[..., None] + finite.bulk_kernel
+    moduli = _moduli(finite, stiffness, rows)
+    stress_by_pressure, volume_by_gradient = volume, volume
+    volume_stiffness: Complex = np.ones((1, *bulk.shape[1:2], 1), dtype=complex)  # s
+    compliance = by_displacement = by_thickness = volume_of_thickness = thickness_of_volume = volume_stiffness[:0]
+    if finite.unknowns == 5:
+        compliance = 1.0 / moduli[4, 4]
+        column, row = moduli[:4, 4] * compliance, moduli[4, :4] * compliance
+        by_displacement, by_thickness = _caused(row, slope), _caused(column, weighed)
+        volume_of_thickness = volume[4] * compliance
+        thickness_of_volume = volume_of_thickness * bulk
+        volume_stiffness = 1.0 + bulk * _cell_mean(finite, (volume[4] * volume_of_thickness)[None])[0]
+        stress_by_pressure = volume[:4] - column * volume[4]
+        volume_by_gradient = volume[:4] - row * volume[4]
+        moduli = moduli[:4, :4] - column[:, None] * moduli[4, :4]
+    of_displacement = _cell_mean(finite, _caused(volume_by_gradient, slope)) / volume_stiffness
+    of_volume = _caused(stress_by_pressure, weighed)
+    if not finite.block.pointwise:
+        of_volume = of_volume.sum(axis=1, keepdims=True)
+    of_volume = of_volume * bulk
+    cells = _cells(moduli, slope, weighed)
+    cells += (of_displacement * of_volume[:, None]).sum(axis=2)
+    return _Condensed(
+        compliance,
+        by_displacement,
+        by_thickness,
+        volume_of_thickness,
+        thickness_of_volume,
+        volume_stiffness,
+        of_displacement,
+        of_volume,
+        cells,
+    )
+
+
+def _cell_mean(finite: FiniteBlock, points: Complex) -> Complex:
+    """Return <x>: the points along the second axis, or their mean where the volume is that of the cell."""
+    return points if finite.block.pointwise else points.mean(axis=1, keepdims=True)
+
+
+def _moduli(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> Complex:
     """Return A_n = <local> - H_n <dS/dQ> <dCb^-1/d(unknowns)>, the averaged moduli at constant volume.
 
     Parameters
     ----------
     finite : FiniteBlock
     stiffness : Stiffness
+    rows : slice
+        Of cells.
 
     Returns
     -------
@@ -240,17 +290,19 @@ def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
         MPa.
     """
     points = stiffness.points
-    local, by_driving, inverse = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
+    local, by_driving, inverse = (
+        part[..., rows, :].mean(axis=-1) for part in (points.local, points.by_driving, points.inverse)
+    )
     relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
     moduli: Complex = relaxing[..., None] * -finite.shear_kernel
     moduli += local[..., None]
     return moduli
 
 
-def _slope(finite: FiniteBlock) -> Complex:
+def _slope(finite: FiniteBlock, rows: slice) -> Complex:
     """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
     turn = np.exp(2j * np.pi / finite.block.columns * finite.block.harmonics)
-    nodes = finite.quadrature.gradients.transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
+    nodes = finite.quadrature.gradients[rows].transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
     slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
     return slope
 
