@@ -13,7 +13,6 @@ Newton's method and Krylov iterations the same work for any Poisson's ratio up t
 from __future__ import annotations
 
 import copy
-import dataclasses
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,7 +21,17 @@ import numpy as np
 
 from rubfric.arrays import Complex, Real
 from rubfric.mechanics.block.block import Block
-from rubfric.mechanics.finite.law import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.mechanics.finite.law import (
+    Deformation,
+    Inverted,
+    Tangent,
+    deform,
+    inverse_change,
+    local_change,
+    stress,
+    tangent,
+    volumetric_stress,
+)
 from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
@@ -91,10 +100,22 @@ class Stressed:
 
 @dataclass(frozen=True)
 class Stiffness:
-    """The tangent at all quadrature points; ``curvature`` is U'', MPa, in the shape of ``Fields.volume``."""
+    """The tangent at all quadrature points, as the state that it is of: held in full it would take twice the memory.
 
-    points: Tangent
+    Attributes
+    ----------
+    state : Stressed
+    curvature : ndarray, shape of ``Fields.volume``
+        U'', MPa.
+    """
+
+    state: Stressed
     curvature: Real
+
+    def tangent(self, rows: slice) -> Tangent:
+        """Return the tangent at the points of some rows of cells."""
+        state = self.state
+        return tangent(state.deformation.of_rows(rows), state.driving[..., rows, :], state.volumetric[..., rows, :])
 
 
 class FiniteBlock:
@@ -224,14 +245,7 @@ class FiniteBlock:
             Of these fields.
         """
         _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
-        size, shape = self.unknowns, state.deformation.area.shape
-        whole = Tangent(*(np.empty((*parts, *shape)) for parts in ((size, size), (size, 4), (4, size), (size,))))
-        for rows in self.row_slices():
-            points = state.deformation.of_rows(rows)
-            part = tangent(points, state.driving[..., rows, :], state.volumetric[..., rows, :])
-            for field in dataclasses.fields(Tangent):
-                getattr(whole, field.name)[..., rows, :] = getattr(part, field.name)
-        return Stiffness(whole, curvature)
+        return Stiffness(state, curvature)
 
     def row_slices(self) -> Iterator[slice]:
         """Yield the rows of cells a few at a time, so that what is worked out for them stays in the cache."""
@@ -247,16 +261,22 @@ class FiniteBlock:
         stiffness : Stiffness
         step : Fields
         """
-        points = stiffness.points
+        state = stiffness.state
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
-        driving = -self.history.shear(_apply(points.inverse, change))
+        inverse, answer = np.empty_like(state.driving), np.empty_like(change)
+        for rows in self.row_slices():
+            inverse[:, :, rows] = inverse_change(state.deformation.of_rows(rows), change[:, :, rows])
+        driving = -self.history.shear(inverse)
         volumetric = stiffness.curvature * step.volume
         if self.history.bulk_relaxes:
             volumetric = volumetric + self.history.bulk(step.volume)
-        answer = _apply(points.local, change)
-        answer += _apply(points.by_driving, driving)
-        answer += points.volume * volumetric
-        return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
+        swelling = np.empty_like(state.deformation.volume)
+        for rows in self.row_slices():
+            points, part = state.deformation.of_rows(rows), change[:, :, rows]
+            answer[:, :, rows] = local_change(points, state.driving[:, :, rows], state.volumetric[:, rows], part)
+            answer[:, :, rows] += stress(points, driving[:, :, rows], volumetric[:, rows])  # linear in Q and U'
+            swelling[:, rows] = points.volume * (points.growth * part).sum(axis=0)
+        return answer, step.volume - self.dilatation(swelling)
 
     def stress_power(self, fields: Fields, state: Stressed) -> Real:
         """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns).
@@ -287,9 +307,3 @@ class FiniteBlock:
         field : ndarray, shape (..., columns)
         """
         return convolve(kernel, field)
-
-
-def _apply(matrix: Real, vector: Real) -> Real:
-    """Return the product at every point of (i, j, ...) and (j, ...)."""
-    answer: Real = np.einsum("ij...,j...->i...", matrix, vector)
-    return answer

@@ -12,7 +12,6 @@ the block is; where that matters, its top is held.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from scipy import fft
@@ -20,6 +19,7 @@ from scipy.linalg import lapack
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness
+from rubfric.mechanics.finite.condensation import Condensed, cell_mean, condensed
 
 # Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
 _BAND = 3
@@ -83,8 +83,8 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        parts = [_condensed(finite, stiffness, rows) for rows in finite.row_slices()]
-        whole = _Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True)))
+        parts = [condensed(finite, stiffness, rows) for rows in finite.row_slices()]
+        whole = Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True)))
         del parts
         self._thickness_compliance, self._volume_stiffness = whole.thickness_compliance, whole.volume_stiffness
         self._thickness_of_displacement = whole.thickness_of_displacement
@@ -117,7 +117,7 @@ class Circulant:
         volume = fft.rfft(volume_excess, axis=-1)
         if len(thickness):
             volume = (
-                volume + _cell_mean(self._finite, self._volume_of_thickness * thickness)[0]
+                volume + cell_mean(self._finite, self._volume_of_thickness * thickness)[0]
             ) / self._volume_stiffness
         pushed = (self._force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
@@ -209,124 +209,3 @@ class Circulant:
         if info:
             raise np.linalg.LinAlgError("singular averaged stiffness")
         return factors, pivots
-
-
-class _Condensed(NamedTuple):
-    """Some rows of cells with thickness and volume condensed; rows are the last axis but one of every array.
-
-    Compliances and what causes what, as in ``Circulant``; those of the thickness are empty in plane strain. The cells
-    are of shape (4, 4, rows, n).
-    """
-
-    thickness_compliance: Complex
-    thickness_of_displacement: Complex
-    force_of_thickness: Complex
-    volume_of_thickness: Complex
-    thickness_of_volume: Complex
-    volume_stiffness: Complex
-    volume_of_displacement: Complex
-    force_of_volume: Complex
-    cells: Complex
-
-
-def _condensed(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> _Condensed:
-    """Condense thickness and volume in some rows of cells, as the equations of ``Circulant`` say."""
-    slope = _slope(finite, rows)
-    weighed = slope.conj() * finite.weights[:, rows]
-    volume = stiffness.points.volume[..., rows, :].mean(axis=-1)[..., None]
-    bulk = stiffness.curvature[..., rows, :].mean(axis=-1)[..., None] + finite.bulk_kernel
-    moduli = _moduli(finite, stiffness, rows)
-    stress_by_pressure, volume_by_gradient = volume, volume
-    volume_stiffness: Complex = np.ones((1, *bulk.shape[1:2], 1), dtype=complex)  # s
-    compliance = by_displacement = by_thickness = volume_of_thickness = thickness_of_volume = volume_stiffness[:0]
-    if finite.unknowns == 5:
-        compliance = 1.0 / moduli[4, 4]
-        column, row = moduli[:4, 4] * compliance, moduli[4, :4] * compliance
-        by_displacement, by_thickness = _caused(row, slope), _caused(column, weighed)
-        volume_of_thickness = volume[4] * compliance
-        thickness_of_volume = volume_of_thickness * bulk
-        volume_stiffness = 1.0 + bulk * _cell_mean(finite, (volume[4] * volume_of_thickness)[None])[0]
-        stress_by_pressure = volume[:4] - column * volume[4]
-        volume_by_gradient = volume[:4] - row * volume[4]
-        moduli = moduli[:4, :4] - column[:, None] * moduli[4, :4]
-    of_displacement = _cell_mean(finite, _caused(volume_by_gradient, slope)) / volume_stiffness
-    of_volume = _caused(stress_by_pressure, weighed)
-    if not finite.block.pointwise:
-        of_volume = of_volume.sum(axis=1, keepdims=True)
-    of_volume = of_volume * bulk
-    cells = _cells(moduli, slope, weighed)
-    cells += (of_displacement * of_volume[:, None]).sum(axis=2)
-    return _Condensed(
-        compliance,
-        by_displacement,
-        by_thickness,
-        volume_of_thickness,
-        thickness_of_volume,
-        volume_stiffness,
-        of_displacement,
-        of_volume,
-        cells,
-    )
-
-
-def _cell_mean(finite: FiniteBlock, points: Complex) -> Complex:
-    """Return <x>: the points along the second axis, or their mean where the volume is that of the cell."""
-    return points if finite.block.pointwise else points.mean(axis=1, keepdims=True)
-
-
-def _moduli(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> Complex:
-    """Return A_n = <local> - H_n <dS/dQ> <dCb^-1/d(unknowns)>, the averaged moduli at constant volume.
-
-    Parameters
-    ----------
-    finite : FiniteBlock
-    stiffness : Stiffness
-    rows : slice
-        Of cells.
-
-    Returns
-    -------
-    ndarray of complex, shape (m, m, points, rows, n)
-        MPa.
-    """
-    points = stiffness.points
-    local, by_driving, inverse = (
-        part[..., rows, :].mean(axis=-1) for part in (points.local, points.by_driving, points.inverse)
-    )
-    relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
-    moduli: Complex = relaxing[..., None] * -finite.shear_kernel
-    moduli += local[..., None]
-    return moduli
-
-
-def _slope(finite: FiniteBlock, rows: slice) -> Complex:
-    """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
-    turn = np.exp(2j * np.pi / finite.block.columns * finite.block.harmonics)
-    nodes = finite.quadrature.gradients[rows].transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
-    slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
-    return slope
-
-
-def _caused(weight: Complex | Real, slope: Complex) -> Complex:
-    """Return what u_x and u_y of the lower and the upper nodes cause through a weight on their gradients.
-
-    The weight of the gradient's xx, xy, yx, yy comes first; what is beyond them does not count.
-    Shape (4, points, rows, n), the upper nodes last.
-    """
-    parts = [
-        weight[2 * component] * slope[0, level] + weight[2 * component + 1] * slope[1, level]
-        for level in (0, 1)
-        for component in (0, 1)
-    ]
-    return np.stack(parts)
-
-
-def _cells(moduli: Complex, slope: Complex, weighed: Complex) -> Complex:
-    """Return the stiffness of the cells, (4, 4, rows, n); nodes and components as in ``_caused``."""
-    cells = np.empty((4, 4, *slope.shape[3:]), dtype=complex)
-    for column in range(4):
-        level, component = divmod(column, 2)
-        stress = moduli[:, 2 * component] * slope[0, level]
-        stress += moduli[:, 2 * component + 1] * slope[1, level]
-        cells[:, column] = _caused(stress, weighed).sum(axis=1)
-    return cells

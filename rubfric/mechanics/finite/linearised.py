@@ -38,10 +38,13 @@ def scaling(finite: FiniteBlock, stiffness: Stiffness, harmonic: int) -> Fields:
     Fields
         Dimensionless; the displacement's has the shape (rows + 1, columns), the thickness's that of one field.
     """
-    points = stiffness.points
-    relaxing = np.einsum("ij...,ji...->...", points.by_driving[:4], points.inverse[:, :4])
     kernel = finite.shear_kernel
-    stiff = np.einsum("ii...->...", points.local[:4, :4]) - np.abs(kernel[min(harmonic, len(kernel) - 1)]) * relaxing
+    branches = np.abs(kernel[min(harmonic, len(kernel) - 1)])
+    stiff = np.empty_like(stiffness.state.deformation.area)
+    for rows in finite.row_slices():
+        points = stiffness.tangent(rows)
+        relaxing = np.einsum("ij...,ji...->...", points.by_driving[:4], points.inverse[:, :4])
+        stiff[:, rows] = np.einsum("ii...->...", points.local[:4, :4]) - branches * relaxing
     stiff = np.maximum(stiff / stiff.mean(axis=-1, keepdims=True), _SOFTEST)
     cells = stiff.mean(axis=0)
     nodes = np.pad(0.5 * (cells + np.roll(cells, 1, axis=1)), ((1, 1), (0, 0)), mode="edge")

@@ -12,7 +12,7 @@ import numpy as np
 
 from rubfric.arrays import Flags
 from rubfric.errors import NotConverged
-from rubfric.mechanics.finite.block import Fields, Stiffness
+from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.direction import MOST_KRYLOV, Direction, newton_direction
@@ -133,8 +133,7 @@ def starting_distance(
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
             if circulant is None:
-                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant = Circulant(problem.finite, average, load.pressure)
+                circulant = _averaged(problem, fields, load)
             return problem.size(problem.correct(circulant, fields, load, touching).step), circulant
     except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
         return np.inf, circulant
@@ -152,13 +151,11 @@ def _iterate(
 ) -> Solved:
     """Do what ``newton`` does, and keep the sizes of u - T(u) in ``residuals``."""
     fields, correction, krylov = start, None, 0
-    stiffness: Stiffness | None = None  # of the fields
     while True:
         steps = max(0, len(residuals) - 1)
         try:
             if circulant is None:
-                stiffness = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant, correction = Circulant(problem.finite, stiffness, load.pressure), None
+                circulant, correction = _averaged(problem, fields, load), None
             if correction is None:
                 correction = problem.correct(circulant, fields, load, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
@@ -171,12 +168,11 @@ def _iterate(
             raise Stalled("too many steps", len(residuals) - 1, krylov, size)
         if len(residuals) > _WATCHED and size > _SLOWEST * residuals[-1 - _WATCHED]:
             raise Stalled("the residual falls too slowly", len(residuals) - 1, krylov, size)
-        if stiffness is None:
-            stiffness = problem.finite.stiffness(fields, correction.state)
+        stiffness = problem.finite.stiffness(fields, correction.state)
         found = newton_direction(
             problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals)
         )
-        krylov, stiffness = krylov + found.krylov, None
+        krylov += found.krylov
         ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))
         if ahead is None:
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
@@ -187,6 +183,12 @@ def _iterate(
             raise Stalled("GMRES finds no direction that brings the residual down", len(residuals), krylov, ahead_size)
         if found.most > worth and ahead_size > tolerance:
             circulant = None
+
+
+def _averaged(problem: SlidingContact, fields: Fields, load: Load) -> Circulant:
+    """Return the averaged tangent of fields; their state is not kept."""
+    finite = problem.finite
+    return Circulant(finite, finite.stiffness(fields, finite.stressed(fields)), load.pressure)
 
 
 def _forcing(residuals: list[float]) -> float:
