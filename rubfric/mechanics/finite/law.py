@@ -91,6 +91,10 @@ class Tangent:
     inverse: Real
     volume: Real
 
+    def of_rows(self, rows: slice) -> Tangent:
+        """Return the points of some rows, the last axis but one."""
+        return Tangent(*(getattr(self, field.name)[..., rows, :] for field in fields(self)))
+
 
 def deform(gradient: Real, log_thickness: Real) -> Deformation:
     """Return the deformation of points.
