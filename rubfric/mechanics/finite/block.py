@@ -37,8 +37,8 @@ from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convol
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
 
-# Points that are worked out at once: what is kept of them on the way, some hundred numbers, fits into a cache.
-_CACHED = 8192
+# Points that are worked out at once: some hundred numbers each on the way, 50 MB. Fewer take more calls and more time.
+_AT_ONCE = 65536
 # Points up to which their tangents are held, which is faster to apply: 110 MB.
 _HELD = 200_000
 
@@ -262,8 +262,8 @@ class FiniteBlock:
         return dataclasses.replace(stiffness, held=held)
 
     def row_slices(self) -> Iterator[slice]:
-        """Yield the rows of cells a few at a time, so that what is worked out for them stays in the cache."""
-        few = max(1, _CACHED // (self.points * self.block.columns))
+        """Yield the rows of cells a few at a time, all of them on small meshes: what is worked out for them takes little memory."""
+        few = max(1, _AT_ONCE // (self.points * self.block.columns))
         for first in range(0, self.block.rows, few):
             yield slice(first, min(first + few, self.block.rows))
 
