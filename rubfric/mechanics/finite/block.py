@@ -262,7 +262,7 @@ class FiniteBlock:
         return dataclasses.replace(stiffness, held=held)
 
     def row_slices(self) -> Iterator[slice]:
-        """Yield the rows of cells a few at a time, all of them on small meshes: what is worked out for them takes little memory."""
+        """Yield the rows of cells a few at a time, all at once on small meshes, so that work takes little memory."""
         few = max(1, _AT_ONCE // (self.points * self.block.columns))
         for first in range(0, self.block.rows, few):
             yield slice(first, min(first + few, self.block.rows))
