@@ -13,17 +13,34 @@ Newton's method and Krylov iterations the same work for any Poisson's ratio up t
 from __future__ import annotations
 
 import copy
+import dataclasses
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from rubfric.arrays import Complex, Real
 from rubfric.mechanics.block.block import Block
-from rubfric.mechanics.finite.law import Deformation, Inverted, Tangent, deform, stress, tangent, volumetric_stress
+from rubfric.mechanics.finite.law import (
+    Deformation,
+    Inverted,
+    Tangent,
+    deform,
+    inverse_change,
+    local_change,
+    stress,
+    tangent,
+    volumetric_stress,
+)
 from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
+
+# Points that are worked out at once: some hundred numbers each on the way, 50 MB. Fewer take more calls and more time.
+_AT_ONCE = 65536
+# Points up to which their tangents are held, which is faster to apply: 110 MB.
+_HELD = 200_000
 
 
 @dataclass(frozen=True)
@@ -86,10 +103,27 @@ class Stressed:
 
 @dataclass(frozen=True)
 class Stiffness:
-    """The tangent at all quadrature points; ``curvature`` is U'', MPa, in the shape of ``Fields.volume``."""
+    """The tangent at all quadrature points; on large meshes, where it would take the most memory, only its state.
 
-    points: Tangent
+    Attributes
+    ----------
+    state : Stressed
+    curvature : ndarray, shape of ``Fields.volume``
+        U'', MPa.
+    held : Tangent, optional
+        At all points.
+    """
+
+    state: Stressed
     curvature: Real
+    held: Tangent | None = None
+
+    def tangent(self, rows: slice) -> Tangent:
+        """Return the tangent at the points of some rows of cells."""
+        state = self.state
+        if self.held is not None:
+            return self.held.of_rows(rows)
+        return tangent(state.deformation.of_rows(rows), state.driving[..., rows, :], state.volumetric[..., rows, :])
 
 
 class FiniteBlock:
@@ -219,7 +253,19 @@ class FiniteBlock:
             Of these fields.
         """
         _, curvature = volumetric_stress(self.material.long_term_bulk_modulus, fields.volume)
-        return Stiffness(tangent(state.deformation, state.driving, state.volumetric), curvature)
+        stiffness = Stiffness(state, curvature)
+        if state.deformation.area.size > _HELD:
+            return stiffness
+        parts = [stiffness.tangent(rows) for rows in self.row_slices()]
+        gathered = ([getattr(part, field.name) for part in parts] for field in dataclasses.fields(Tangent))
+        held = parts[0] if len(parts) == 1 else Tangent(*(np.concatenate(arrays, axis=-2) for arrays in gathered))
+        return dataclasses.replace(stiffness, held=held)
+
+    def row_slices(self) -> Iterator[slice]:
+        """Yield the rows of cells a few at a time, all at once on small meshes, so that work takes little memory."""
+        few = max(1, _AT_ONCE // (self.points * self.block.columns))
+        for first in range(0, self.block.rows, few):
+            yield slice(first, min(first + few, self.block.rows))
 
     def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
         """Return the change of the stresses, MPa, and of the volume's excess under a small step.
@@ -229,16 +275,31 @@ class FiniteBlock:
         stiffness : Stiffness
         step : Fields
         """
-        points = stiffness.points
+        state = stiffness.state
         change = np.concatenate((self.gradient(step.displacement), step.log_thickness))
-        driving = -self.history.shear(_apply(points.inverse, change))
+        held = stiffness.held
+        if held is not None:
+            inverse = _apply(held.inverse, change)
+        else:
+            inverse = np.empty_like(state.driving)
+            for rows in self.row_slices():
+                inverse[:, :, rows] = inverse_change(state.deformation.of_rows(rows), change[:, :, rows])
+        driving = -self.history.shear(inverse)
         volumetric = stiffness.curvature * step.volume
         if self.history.bulk_relaxes:
             volumetric = volumetric + self.history.bulk(step.volume)
-        answer = _apply(points.local, change)
-        answer += _apply(points.by_driving, driving)
-        answer += points.volume * volumetric
-        return answer, step.volume - self.dilatation((points.volume * change).sum(axis=0))
+        if held is not None:
+            answer = _apply(held.local, change)
+            answer += _apply(held.by_driving, driving)
+            answer += held.volume * volumetric
+            return answer, step.volume - self.dilatation((held.volume * change).sum(axis=0))
+        answer, swelling = np.empty_like(change), np.empty_like(state.deformation.volume)
+        for rows in self.row_slices():
+            points, part = state.deformation.of_rows(rows), change[:, :, rows]
+            answer[:, :, rows] = local_change(points, state.driving[:, :, rows], state.volumetric[:, rows], part)
+            answer[:, :, rows] += stress(points, driving[:, :, rows], volumetric[:, rows])  # linear in Q and U'
+            swelling[:, rows] = points.volume * (points.growth * part).sum(axis=0)
+        return answer, step.volume - self.dilatation(swelling)
 
     def stress_power(self, fields: Fields, state: Stressed) -> Real:
         """Return S : dE/dt at the points, MPa/s, as P : dF/dt with the thickness's part; (points, rows, columns).

@@ -19,6 +19,7 @@ from scipy.linalg import lapack
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness
+from rubfric.mechanics.finite.condensation import Condensed, cell_mean, condensed
 
 # Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
 _BAND = 3
@@ -82,30 +83,16 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        slope = _slope(finite)
-        weighed = slope.conj() * finite.weights
-        volume = stiffness.points.volume.mean(axis=-1)[..., None]
-        bulk = stiffness.curvature.mean(axis=-1)[..., None] + finite.bulk_kernel
-        moduli = _moduli(finite, stiffness)
-        stress_by_pressure, volume_by_gradient = volume, volume
-        self._volume_stiffness: Complex | float = 1.0  # s
-        if finite.unknowns == 5:
-            self._thickness_compliance = 1.0 / moduli[4, 4]
-            column, row = moduli[:4, 4] * self._thickness_compliance, moduli[4, :4] * self._thickness_compliance
-            self._thickness_of_displacement, self._force_of_thickness = _caused(row, slope), _caused(column, weighed)
-            self._volume_of_thickness = volume[4] * self._thickness_compliance
-            self._thickness_of_volume = self._volume_of_thickness * bulk
-            self._volume_stiffness = 1.0 + bulk * self._cell_mean((volume[4] * self._volume_of_thickness)[None])[0]
-            stress_by_pressure = volume[:4] - column * volume[4]
-            volume_by_gradient = volume[:4] - row * volume[4]
-            moduli = moduli[:4, :4] - column[:, None] * moduli[4, :4]
-        self._volume_of_displacement = self._cell_mean(_caused(volume_by_gradient, slope)) / self._volume_stiffness
-        self._force_of_volume = _caused(stress_by_pressure, weighed)
-        if not finite.block.pointwise:
-            self._force_of_volume = self._force_of_volume.sum(axis=1, keepdims=True)
-        self._force_of_volume = self._force_of_volume * bulk
-        cells = _cells(moduli, slope, weighed)
-        cells += (self._volume_of_displacement * self._force_of_volume[:, None]).sum(axis=2)
+        parts = [condensed(finite, stiffness, rows) for rows in finite.row_slices()]
+        whole = Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True)))
+        del parts
+        self._thickness_compliance, self._volume_stiffness = whole.thickness_compliance, whole.volume_stiffness
+        self._thickness_of_displacement = whole.thickness_of_displacement
+        self._force_of_thickness, self._force_of_volume = whole.force_of_thickness, whole.force_of_volume
+        self._volume_of_thickness, self._thickness_of_volume = whole.volume_of_thickness, whole.thickness_of_volume
+        self._volume_of_displacement = whole.volume_of_displacement
+        cells = whole.cells
+        del whole
         self._factors, self._pivots = self._factorise(cells, pressure)
         self._surface_response = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
@@ -129,7 +116,9 @@ class Circulant:
         thickness = fft.rfft(thickness_stress, axis=-1)
         volume = fft.rfft(volume_excess, axis=-1)
         if len(thickness):
-            volume = (volume + self._cell_mean(self._volume_of_thickness * thickness)[0]) / self._volume_stiffness
+            volume = (
+                volume + cell_mean(self._finite, self._volume_of_thickness * thickness)[0]
+            ) / self._volume_stiffness
         pushed = (self._force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
         if len(thickness):
             pushed += (self._force_of_thickness * thickness[0]).sum(axis=1)
@@ -177,10 +166,6 @@ class Circulant:
         columns = self._finite.block.columns
         return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
 
-    def _cell_mean(self, points: Complex) -> Complex:
-        """Return <x>: the points along the second axis, or their mean where the volume is that of the cell."""
-        return points if self._finite.block.pointwise else points.mean(axis=1, keepdims=True)
-
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
         answer, info = lapack.zgbtrs(
@@ -224,57 +209,3 @@ class Circulant:
         if info:
             raise np.linalg.LinAlgError("singular averaged stiffness")
         return factors, pivots
-
-
-def _moduli(finite: FiniteBlock, stiffness: Stiffness) -> Complex:
-    """Return A_n = <local> - H_n <dS/dQ> <dCb^-1/d(unknowns)>, the averaged moduli at constant volume.
-
-    Parameters
-    ----------
-    finite : FiniteBlock
-    stiffness : Stiffness
-
-    Returns
-    -------
-    ndarray of complex, shape (m, m, points, rows, n)
-        MPa.
-    """
-    points = stiffness.points
-    local, by_driving, inverse = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
-    relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
-    moduli: Complex = relaxing[..., None] * -finite.shear_kernel
-    moduli += local[..., None]
-    return moduli
-
-
-def _slope(finite: FiniteBlock) -> Complex:
-    """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
-    turn = np.exp(2j * np.pi / finite.block.columns * finite.block.harmonics)
-    nodes = finite.quadrature.gradients.transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
-    slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
-    return slope
-
-
-def _caused(weight: Complex | Real, slope: Complex) -> Complex:
-    """Return what u_x and u_y of the lower and the upper nodes cause through a weight on their gradients.
-
-    The weight of the gradient's xx, xy, yx, yy comes first; what is beyond them does not count.
-    Shape (4, points, rows, n), the upper nodes last.
-    """
-    parts = [
-        weight[2 * component] * slope[0, level] + weight[2 * component + 1] * slope[1, level]
-        for level in (0, 1)
-        for component in (0, 1)
-    ]
-    return np.stack(parts)
-
-
-def _cells(moduli: Complex, slope: Complex, weighed: Complex) -> Complex:
-    """Return the stiffness of the cells, (4, 4, rows, n); nodes and components as in ``_caused``."""
-    cells = np.empty((4, 4, *slope.shape[3:]), dtype=complex)
-    for column in range(4):
-        level, component = divmod(column, 2)
-        stress = moduli[:, 2 * component] * slope[0, level]
-        stress += moduli[:, 2 * component + 1] * slope[1, level]
-        cells[:, column] = _caused(stress, weighed).sum(axis=1)
-    return cells

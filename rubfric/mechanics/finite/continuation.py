@@ -23,7 +23,8 @@ from rubfric.road.road import finest_waves
 # the line through two solutions near each other be one through their errors.
 _ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
 _FIRST_SHARE = 0.5
-_SMALLEST_SHARE = 1e-3
+# Shorter steps are not tried: on many waves, where each costs seconds, fewer of them.
+_SMALLEST_SHARE, _SMALLEST_SHARE_MANY = 1e-3, 1e-2
 # Newton's method starts no farther from a solution on the way, if a step of this share of the one wished for does it.
 _NEAR, _SHORTEST = 0.2, 0.05
 # A step on the way that took at most so many Newton steps is followed by a longer one.
@@ -229,6 +230,7 @@ class Way:
             Where steps become too short.
         """
         share, length = 0.0, _FIRST_SHARE
+        smallest = _SMALLEST_SHARE if finest_waves(loads(1.0).road) == 1 else _SMALLEST_SHARE_MANY
         here, before = start, None
         while True:
             ahead, distance = self._near(before, (share, here), min(1.0, share + length), loads)
@@ -241,7 +243,7 @@ class Way:
                 solved = attempt(self._problem, begun, loads(ahead), tolerance, self._log, f"{what}{ahead:.4g}")
             except Stalled:
                 length = 0.5 * (ahead - share)
-                if length < _SMALLEST_SHARE:
+                if length < smallest:
                     raise
                 continue
             if ahead == 1.0:

@@ -17,11 +17,14 @@ from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.krylov import Krylov, Operator
-from rubfric.mechanics.finite.linearised import Linearised
+from rubfric.mechanics.finite.linearised import Linearised, scaling
+from rubfric.road.road import finest_waves
 
 MOST_KRYLOV = 60
 # Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.
 _MOST_PASSES, _PATIENCE = 12, 4
+# Shares of the residual down to which single precision is enough.
+_SINGLE = 1e-4
 # Applications of the tangent after which no other set is tried.
 _MOST_APPLIED = 120
 # The first few sets are told from each other after GMRES has solved to this share of the residual.
@@ -91,12 +94,14 @@ def newton_direction(
     """
     vector: Real | None = None
     applied = most = passes = 0
+    precision = np.float32 if forcing >= _SINGLE else np.float64
+    scale = scaling(problem.finite, stiffness, finest_waves(load.road))
     best, patience, few = len(touching) + 1, _PATIENCE, len(touching) // _COLUMNS_PER_FEW
     while True:
         passes += 1
-        linear = Linearised(problem, circulant, stiffness, correction, load, touching)
+        linear = Linearised(problem, circulant, stiffness, correction, load, touching, scale)
         rest, held = linear.rest()
-        krylov = Krylov(_operator(problem, linear), problem.pack(rest), vector, MOST_KRYLOV)
+        krylov = Krylov(_operator(problem, linear), problem.pack(rest), vector, MOST_KRYLOV, precision)
         for goal in (max(_LOOSE, forcing), forcing):
             while krylov.residual > goal and not krylov.full:
                 krylov.grow()

@@ -19,7 +19,7 @@ C_zz S_zz, which vanishes in plane stress.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -65,6 +65,10 @@ class Deformation:
         """Cb, shape (4, ...)."""
         return self.isochoric * self.squared
 
+    def of_rows(self, rows: slice) -> Deformation:
+        """Return the points of some rows, the last axis but one."""
+        return Deformation(*(getattr(self, field.name)[..., rows, :] for field in fields(self)))
+
 
 @dataclass(frozen=True)
 class Tangent:
@@ -86,6 +90,10 @@ class Tangent:
     by_driving: Real
     inverse: Real
     volume: Real
+
+    def of_rows(self, rows: slice) -> Tangent:
+        """Return the points of some rows, the last axis but one."""
+        return Tangent(*(getattr(self, field.name)[..., rows, :] for field in fields(self)))
 
 
 def deform(gradient: Real, log_thickness: Real) -> Deformation:
@@ -231,6 +239,64 @@ def tangent(state: Deformation, driving: Real, volumetric: Real) -> Tangent:
         by_driving[4, ZZ] += squared[ZZ]
     by_driving *= iso
     return Tangent(local, by_driving, inverse, state.volume * growth)
+
+
+def inverse_change(state: Deformation, change: Real) -> Real:
+    """Return the change of Cb^-1, shape (4, ...): ``Tangent.inverse`` times a change, which need not be held for it.
+
+    Parameters
+    ----------
+    state : Deformation
+    change : ndarray, shape (m, ...)
+        Of the unknowns.
+    """
+    growth, (xx, yy, xy, zz) = state.growth, state.inverse
+    answer = ((2.0 / 3.0) * (growth * change).sum(axis=0)) * state.inverse
+    along, across = (growth[i] * change[0] + growth[i + 2] * change[2] for i in (0, 1))  # columns x of F^-1 dF
+    right, up = (growth[i] * change[1] + growth[i + 2] * change[3] for i in (0, 1))  # columns y
+    answer[XX] -= 2.0 * (along * xx + right * xy)
+    answer[YY] -= 2.0 * (across * xy + up * yy)
+    answer[XY] -= along * xy + right * yy + across * xx + up * xy
+    if len(growth) == 5:
+        answer[ZZ] -= 2.0 * zz * change[4]
+    return answer
+
+
+def local_change(state: Deformation, driving: Real, volumetric: Real, change: Real) -> Real:
+    """Return the change of the stresses at constant Q and U', MPa: ``Tangent.local`` times a change.
+
+    Parameters
+    ----------
+    state : Deformation
+    driving : ndarray, shape (4, ...)
+        Q, MPa.
+    volumetric : ndarray, shape (...)
+        U', MPa.
+    change : ndarray, shape (m, ...)
+        Of the unknowns.
+    """
+    spin, product = _work(state, driving)
+    growth, iso = state.growth, state.isochoric
+    bend = volumetric * state.volume - iso * product / 3.0
+    stretch = volumetric * state.volume + iso * product * (2.0 / 9.0)
+    spin *= iso
+    swelling = growth * change
+    plane = swelling[:4].sum(axis=0)
+    whole = plane + swelling[4] if len(growth) == 5 else plane
+    answer = spin * ((-2.0 / 3.0) * whole)
+    answer += growth * (stretch * whole - (2.0 / 3.0) * (spin * change).sum(axis=0))
+    answer[:4] -= growth[:4] * (bend * plane)
+    bend /= state.area
+    for i, j, sign in ((0, 3, 1.0), (1, 2, -1.0)):
+        answer[i] += sign * bend * change[j]
+        answer[j] += sign * bend * change[i]
+    along, up, across = iso * driving[XX], iso * driving[YY], iso * driving[XY]
+    for i in (0, 2):
+        answer[i] += along * change[i] + across * change[i + 1]
+        answer[i + 1] += across * change[i] + up * change[i + 1]
+    if len(growth) == 5:
+        answer[4] += 2.0 * spin[4] * change[4]
+    return answer
 
 
 def _inverse_tangent(state: Deformation) -> Real:

@@ -15,7 +15,7 @@ from rubfric.errors import NotConverged
 from rubfric.mechanics.finite.block import Fields
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
-from rubfric.mechanics.finite.direction import Direction, newton_direction
+from rubfric.mechanics.finite.direction import MOST_KRYLOV, Direction, newton_direction
 from rubfric.mechanics.finite.law import Inverted
 
 _MOST_STEPS = 16
@@ -26,6 +26,8 @@ _SHORTEST_STEP = 1.0 / 16.0
 _DECREASE = 0.1
 # So many steps must bring the residual below this share of what it was.
 _WATCHED, _SLOWEST = 3, 0.5
+# Far from a solution, where GMRES does not get as far as it should, its step must bring the residual below this share.
+_EXHAUSTED = 0.5
 # A step may end above the last residual, as long as it ends below the larger of so many of them.
 _MEMORY = 2
 # GMRES solves to a share of the residual: the loosest where residuals fall slowly, in proportion where they fall fast.
@@ -131,8 +133,7 @@ def starting_distance(
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise", under="ignore"):
             if circulant is None:
-                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant = Circulant(problem.finite, average, load.pressure)
+                circulant = _averaged(problem, fields, load)
             return problem.size(problem.correct(circulant, fields, load, touching).step), circulant
     except (Inverted, NotConverged, np.linalg.LinAlgError, FloatingPointError):
         return np.inf, circulant
@@ -154,8 +155,7 @@ def _iterate(
         steps = max(0, len(residuals) - 1)
         try:
             if circulant is None:
-                average = problem.finite.stiffness(fields, problem.finite.stressed(fields))
-                circulant, correction = Circulant(problem.finite, average, load.pressure), None
+                circulant, correction = _averaged(problem, fields, load), None
             if correction is None:
                 correction = problem.correct(circulant, fields, load, touching)
         except (Inverted, NotConverged, np.linalg.LinAlgError) as error:
@@ -178,8 +178,17 @@ def _iterate(
             raise Stalled("no step brings the residual down", len(residuals) - 1, krylov, size)
         fields, correction = ahead
         touching = correction.contact.touching
-        if found.most > worth and problem.size(correction.step) > tolerance:
+        ahead_size = problem.size(correction.step)
+        if found.most >= MOST_KRYLOV and ahead_size > max(_FAR, _EXHAUSTED * size):
+            raise Stalled("GMRES finds no direction that brings the residual down", len(residuals), krylov, ahead_size)
+        if found.most > worth and ahead_size > tolerance:
             circulant = None
+
+
+def _averaged(problem: SlidingContact, fields: Fields, load: Load) -> Circulant:
+    """Return the averaged tangent of fields; their state is not kept."""
+    finite = problem.finite
+    return Circulant(finite, finite.stiffness(fields, finite.stressed(fields)), load.pressure)
 
 
 def _forcing(residuals: list[float]) -> float:

@@ -104,7 +104,7 @@ class FiniteSolver:
         self.decision = decision
         self._load = Load(scene.road, scene.pressure)
         self._log = AttemptLog()
-        self._before: tuple[FiniteBlock, Solved] | None = None
+        self._before: tuple[FiniteBlock, Fields, Flags] | None = None
 
     def first(self) -> Resolution:
         """Return the mesh to begin with, from the contact of an elastic half-space."""
@@ -130,8 +130,8 @@ class FiniteSolver:
             near = near_crests(scene.road, block.columns, _FIRST_GUESS * estimated_fraction(scene))
             flat = Start(finite.pressed(scene.pressure), near)
             solved = reach(problem, flat, self._load, tolerance, log)
-        self._before = finite, solved
         contact = solved.correction.contact
+        self._before = finite, solved.fields, contact.touching
         wanted = min(wanted_nodes(scene, self.finite, count_spots(scene, contact.touching)), block.columns)
         return FiniteSolution(
             scene=scene,
@@ -153,11 +153,9 @@ class FiniteSolver:
         """Return the solution reached from that on the mesh before, or None."""
         if self._before is None:
             return None
-        finite, solved = self._before
+        finite, fields, touching = self._before
         columns = problem.finite.block.columns
-        start = Start(
-            prolong(solved.fields, finite, problem.finite), _carry(solved.correction.contact.touching, columns)
-        )
+        start = Start(prolong(fields, finite, problem.finite), _carry(touching, columns))
         what = f"{columns} columns, from {finite.block.columns}"
         try:
             return attempt(problem, start, self._load, self.scene.numerics.tolerance, self._log, what)

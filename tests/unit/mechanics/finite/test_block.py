@@ -10,6 +10,7 @@ from finite_fields import ELASTIC, PROPORTIONAL, RUBBER, WAVENUMBER, WIDTH, coar
 from numpy.typing import NDArray
 
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
+from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.law import Inverted, volumetric_energy, volumetric_stress
 from rubfric.rubber.material import Material
 
@@ -104,6 +105,28 @@ def test_change_is_the_derivative_of_the_stresses_and_of_the_excess_of_volume(
     np.testing.assert_allclose(change, numeric, atol=1e-6 * np.abs(change).max())
     numeric = (ahead.volume_excess - behind.volume_excess) / (2.0 * share)
     np.testing.assert_allclose(excess, numeric, atol=1e-6 * np.abs(excess).max())
+
+
+@PLANES
+@DILATATIONS
+def test_tangent_is_the_same_whether_held_or_not(
+    plane: str, dilatation: str, paper_rubber: Material, rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    finite = coarse(plane, paper_rubber, dilatation=dilatation)
+    fields, step = deformed(finite, rng), random_step(finite, rng)
+    state = finite.stressed(fields)
+    held = finite.stiffness(fields, state)
+    expected, averaged = finite.change(held, step), Circulant(finite, held, 1.0).compliance
+    monkeypatch.setattr("rubfric.mechanics.finite.block._HELD", 0)
+    monkeypatch.setattr("rubfric.mechanics.finite.block._AT_ONCE", 1)
+    free = finite.stiffness(fields, state)
+    assert held.held is not None
+    assert free.held is None
+    assert len(list(finite.row_slices())) == finite.block.rows
+    for found, wanted in zip(finite.change(free, step), expected, strict=True):
+        np.testing.assert_allclose(found, wanted, atol=1e-12 * np.abs(wanted).max())
+    again = Circulant(finite, free, 1.0).compliance
+    np.testing.assert_allclose(again, averaged, atol=1e-10 * np.abs(averaged).max())
 
 
 @PLANES

@@ -25,11 +25,12 @@ from rubfric.errors import NotConverged
 from rubfric.mechanics.block import contact as block_contact
 from rubfric.mechanics.block.contact import Convolution, pivot
 from rubfric.mechanics.finite import contact as slidingcontact
-from rubfric.mechanics.finite.block import Fields
+from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, SlopedSurface
+from rubfric.mechanics.finite.krylov import Krylov
 from rubfric.mechanics.finite.law import Inverted
-from rubfric.mechanics.finite.linearised import Linearised
+from rubfric.mechanics.finite.linearised import Linearised, scaling
 from rubfric.mechanics.finite.newton import Solved, newton
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
@@ -154,6 +155,13 @@ def test_fixed_point_is_in_balance_and_in_contact(plane: str, rubber: Material, 
     np.testing.assert_allclose(height, contact.gap, atol=1e-7 * AMPLITUDE)
 
 
+def even(finite: FiniteBlock) -> Fields:
+    """Return the scale with which the balance is preconditioned by T."""
+    rest = finite.at_rest()
+    shape = rest.displacement.shape[1:]
+    return Fields(np.ones(shape), np.ones_like(rest.log_thickness), np.ones_like(rest.volume))
+
+
 @PLANES
 @RUBBERS
 @LOADS
@@ -166,7 +174,7 @@ def test_linearised_is_the_derivative_at_fixed_contact(
     correction = problem.correct(circulant, found.fields, load(pressure), found.correction.contact.touching)
     stiffness = finite.stiffness(found.fields, correction.state)
     touching = correction.contact.touching
-    linear = Linearised(problem, circulant, stiffness, correction, load(pressure), touching)
+    linear = Linearised(problem, circulant, stiffness, correction, load(pressure), touching, even(finite))
     step = random_step(finite, rng)
 
     def left(sign: float) -> Correction:
@@ -196,15 +204,46 @@ def test_rest_is_the_correction_at_given_contact_nodes(plane: str) -> None:
     correction = problem.correct(circulant, fields, load(0.5), everywhere(problem.finite))
     stiffness = problem.finite.stiffness(fields, correction.state)
     chosen = correction.contact.touching
-    step, pressure = Linearised(problem, circulant, stiffness, correction, load(0.5), chosen).rest()
-    assert step is correction.step
-    assert pressure is correction.contact.pressure
+    scale = even(problem.finite)
+    step, pressure = Linearised(problem, circulant, stiffness, correction, load(0.5), chosen, scale).rest()
+    np.testing.assert_allclose(problem.pack(step), problem.pack(correction.step), atol=1e-10)
+    np.testing.assert_allclose(pressure, correction.contact.pressure, atol=1e-10)
     others = chosen ^ (np.arange(len(chosen)) == np.flatnonzero(chosen)[0])
-    linear = Linearised(problem, circulant, stiffness, correction, load(0.5), others)
+    linear = Linearised(problem, circulant, stiffness, correction, load(0.5), others, scale)
     step, pressure = linear.rest()
     np.testing.assert_allclose((correction.above + linear.along_normals(step))[others], 0.0, atol=1e-12 * AMPLITUDE)
     assert pressure.mean() == pytest.approx(0.5, rel=1e-12)
     assert np.array_equal(pressure != 0.0, others)
+
+
+@PLANES
+@RUBBERS
+def test_scale_changes_the_way_to_a_direction_but_not_the_direction(plane: str, rubber: Material) -> None:
+    problem, found = solved(plane, rubber, 4.0)
+    finite, more = problem.finite, load(4.4)
+    circulant = averaged(problem, found.fields, 4.4)
+    touching = found.correction.contact.touching
+    correction = problem.correct(circulant, found.fields, more, touching)
+    stiffness = finite.stiffness(found.fields, correction.state)
+    local = scaling(finite, stiffness, 1)
+    assert np.ptp(local.displacement[0]) > 0.02
+    np.testing.assert_array_equal(local.displacement[-1], 1.0)
+    steps, pressures = [], []
+    for scale in (even(finite), local):
+        linear = Linearised(problem, circulant, stiffness, correction, more, touching, scale)
+        rest, held = linear.rest()
+        krylov = Krylov(lambda packed, by=linear: applied(problem, by, packed), problem.pack(rest), None, 80)
+        while krylov.residual > 1e-10:
+            krylov.grow()
+        steps.append(krylov.vector())
+        pressures.append(held + krylov.beside())
+    np.testing.assert_allclose(steps[1], steps[0], atol=1e-7 * np.abs(steps[0]).max())
+    np.testing.assert_allclose(pressures[1], pressures[0], atol=1e-7 * pressures[0].max())
+
+
+def applied(problem: SlidingContact, linear: Linearised, packed: Real) -> tuple[Real, Real]:
+    change, pressure = linear.change(problem.unpack(packed))
+    return problem.pack(change), pressure
 
 
 @PLANES

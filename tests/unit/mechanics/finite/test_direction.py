@@ -11,7 +11,7 @@ from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, SlidingContact
 from rubfric.mechanics.finite.direction import Direction, newton_direction
-from rubfric.mechanics.finite.linearised import Linearised
+from rubfric.mechanics.finite.linearised import Linearised, scaling
 
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 PRESSURE, FORCING = 0.5, 1e-9
@@ -33,7 +33,15 @@ class Point:
         return newton_direction(*known, touching, FORCING)
 
     def linear(self, touching: Flags) -> Linearised:
-        return Linearised(self.problem, self.circulant, self.stiffness, self.correction, load(PRESSURE), touching)
+        return Linearised(
+            self.problem,
+            self.circulant,
+            self.stiffness,
+            self.correction,
+            load(PRESSURE),
+            touching,
+            scaling(self.problem.finite, self.stiffness, 1),
+        )
 
 
 @PLANES

@@ -67,3 +67,15 @@ def test_nothing_to_solve_is_solved(matrix: Real) -> None:
     krylov = begun(matrix, np.zeros(SIZE))
     assert krylov.full
     np.testing.assert_array_equal(krylov.vector(), 0.0)
+
+
+def test_single_precision_solves_to_its_round_off(matrix: Real, rng: np.random.Generator) -> None:
+    right = rng.standard_normal(SIZE)
+    krylov = Krylov(lambda vector: (matrix @ vector, vector[:3]), right, None, SIZE, np.float32)
+    while krylov.residual > 1e-4:
+        krylov.grow()
+    vector = krylov.vector()
+    assert vector.dtype == np.float64
+    missed = np.linalg.norm(right - matrix @ vector) / np.linalg.norm(right)
+    assert krylov.residual == pytest.approx(missed, abs=2e-6)
+    assert 0.0 < missed < 1.1e-4

@@ -16,6 +16,8 @@ from rubfric.mechanics.finite.law import (
     Deformation,
     Inverted,
     deform,
+    inverse_change,
+    local_change,
     second_stress,
     stress,
     tangent,
@@ -152,6 +154,16 @@ def test_tangent_is_the_derivative_of_each_part(unknowns: Real, branch: Real) ->
         np.testing.assert_allclose(derivative.inverse[:, number], inverse, atol=1e-7)
         volume = slope(lambda moved: deformed(moved).volume, unknowns, number)
         np.testing.assert_allclose(derivative.volume[number], volume, atol=1e-8)
+
+
+def test_a_tangent_that_is_not_held_is_the_same(unknowns: Real, branch: Real, rng: np.random.Generator) -> None:
+    state = deformed(unknowns)
+    driving, volumetric = driven(state, branch)
+    derivative, change = tangent(state, driving, volumetric), rng.standard_normal(unknowns.shape)
+    inverse, local = (np.einsum("ijp,jp->ip", part, change) for part in (derivative.inverse, derivative.local))
+    np.testing.assert_allclose(inverse_change(state, change), inverse, atol=1e-13 * np.abs(inverse).max())
+    held = local_change(state, driving, volumetric, change)
+    np.testing.assert_allclose(held, local, atol=1e-13 * np.abs(local).max())
 
 
 def test_stress_is_linear_in_what_drives_it(unknowns: Real, branch: Real, rng: np.random.Generator) -> None:
