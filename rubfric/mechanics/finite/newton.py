@@ -17,6 +17,7 @@ from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.direction import MOST_KRYLOV, Direction, newton_direction
 from rubfric.mechanics.finite.law import Inverted
+from rubfric.road.road import finest_waves
 
 _MOST_STEPS = 16
 # A direction that took more Krylov iterations is worth a new average of the tangent, by default.
@@ -26,7 +27,7 @@ _SHORTEST_STEP = 1.0 / 16.0
 _DECREASE = 0.1
 # So many steps must bring the residual below this share of what it was.
 _WATCHED, _SLOWEST = 3, 0.5
-# After a direction that took more Krylov iterations, local stiffness scales the preconditioner.
+# After a direction of more Krylov iterations, and far off on many waves, local stiffness scales the preconditioner.
 _HARD = 10
 # Far from a solution, where GMRES does not get as far as it should, its step must bring the residual below this share.
 _EXHAUSTED = 0.5
@@ -173,6 +174,7 @@ def _iterate(
         if len(residuals) > _WATCHED and size > _SLOWEST * residuals[-1 - _WATCHED]:
             raise Stalled("the residual falls too slowly", len(residuals) - 1, krylov, size)
         stiffness = problem.finite.stiffness(fields, correction.state)
+        hard = hard or (size > _FAR and finest_waves(load.road) > 1)
         found = newton_direction(
             problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals), hard
         )
