@@ -98,6 +98,11 @@ def check_signature(path: str | os.PathLike[str], required: bool = True) -> None
         raise _unusable(path, _DAMAGED)
 
 
+def remove_signature(path: str | os.PathLike[str]) -> None:
+    """Remove the checksum beside a file that is gone; there need be none."""
+    _beside(Path(path)).unlink(missing_ok=True)
+
+
 def fingerprint(words: Iterable[str]) -> str:
     """Return a short name for words, digests of scenes for one, in their order."""
     return hashlib.sha256(" ".join(words).encode()).hexdigest()[:16]

@@ -23,6 +23,8 @@ EXTRAS = {
     "rig": ("pressures", "speeds"),
     "claims": (),
 }
+# As many values as a file may hold, what its aliases stand for counted where they stand.
+_MOST_VALUES = 100_000
 # What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
 _NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, RecursionError)
 
@@ -33,23 +35,24 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
     Raises
     ------
     InvalidInput
-        For a file that is no YAML, or that has a key twice in one mapping, where YAML would keep the last.
+        For a file that is no YAML, that has a key twice in one mapping, where YAML would keep the last, or whose
+        aliases stand for more values than any config has.
     FileNotFoundError
         For a missing file.
     """
     try:
         loader = yaml.SafeLoader(Path(path).read_text(encoding="utf-8-sig"))
         tree = loader.get_single_node()
-        twice = _key_given_twice(tree)
-        held = None if tree is None or twice else loader.construct_document(tree)
+        wrong = "" if tree is None else _key_given_twice(tree) or _too_many_values(tree)
+        held = None if tree is None or wrong else loader.construct_document(tree)
     except UnicodeDecodeError as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {_no_text(error)}") from error
     except RecursionError as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: lists or mappings are nested too deeply") from error
     except (*_NO_YAML, IsADirectoryError) as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
-    if twice:
-        raise InvalidInput(f"{os.fspath(path)} {twice}")
+    if wrong:
+        raise InvalidInput(f"{os.fspath(path)} {wrong}")
     return held
 
 
@@ -82,6 +85,24 @@ def _key_given_twice(tree: yaml.Node | None) -> str:
             lines[same] = line
         waiting += [(f"{dot}{key.value}", value) for key, value in reversed(node.value)]
     return ""
+
+
+def _too_many_values(tree: yaml.Node) -> str:
+    """Return what to say of a file that holds too many values once its aliases are filled in, or nothing."""
+    known: dict[int, int] = {}
+
+    def count(node: yaml.Node) -> int:
+        if isinstance(node, yaml.CollectionNode):
+            if id(node) not in known:
+                known[id(node)] = _MOST_VALUES + 1  # an alias inside of what it stands for has no end
+                inside = node.value if isinstance(node, yaml.SequenceNode) else [value for _, value in node.value]
+                known[id(node)] = sum(map(count, inside))
+            return known[id(node)]
+        return 1
+
+    if count(tree) <= _MOST_VALUES:
+        return ""
+    return f"holds more than {_MOST_VALUES} values once its aliases (*name) are filled in; write out what you mean"
 
 
 def as_typed(config: Any, given: Any) -> Any:

@@ -22,7 +22,13 @@ from rubfric.figures.scaling import tick_decades
 Array = NDArray[np.float64]
 
 # The sets in words; one that is not here goes by its own name.
-_WORDS = {"ladder": "ladders", "inside": "inside the paper's grid", "outside": "outside the paper's grid"}
+_WORDS = {
+    "ladder": "ladders",
+    "inside": "inside the paper's grid",
+    "outside": "outside the paper's grid",
+    "whole": "whole roads",
+    "finite": "whole roads in finite strain",
+}
 _MARKERS = {"small": "o", "finite": "s", "auto": "D"}
 _OTHER_MARKER = "X"
 # In inches: the height of the panels, of a line of the legend above, and of a line of the note.

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 _PRESET = "preset"
 # First meshes among which presets are chosen: many, and all near the presets.
 _LEFT_OUT = "start"
+# The knob of scenes of the whole road, whose costs are over that of the direct way.
+_TOTAL = "multiscale"
 # The knobs in words; one that is not here goes by its own name.
 _WORDS = {
     "mesh": "whole mesh",
@@ -38,11 +40,12 @@ _WORDS = {
     "tolerance": "tolerance",
     "steps": "march: time steps",
     "wavelengths": "march: distance slid",
+    _TOTAL: "way to the total",
 }
-_ACROSS = 5
+_ACROSS = 6
 # In inches: the height of the large panel, of a row of small ones, and of a line of the note.
 _HEIGHT, _SMALL_HEIGHT, _NOTE_LINE = 2.9, 1.75, 0.11
-_SMALL_TYPE, _NOTE_WIDTH, _RUNGS_WIDTH = 6.0, 150, 26
+_SMALL_TYPE, _NOTE_WIDTH, _RUNGS_WIDTH = 6.0, 150, 22
 # The ordinate begins at this part of the smallest median, but shows no more of the reference's own error than this.
 _LOWEST, _OWN = 0.3, 0.1
 _MARGIN = 1.6
@@ -78,8 +81,9 @@ def draw(table: pd.DataFrame) -> Figure:
     table : pandas.DataFrame
         A row per scene, knob and rung, the rungs of a knob from coarse to fine. Columns ``scene``, ``knob``, ``rung``;
         ``error`` (relative, against the reference), ``cost`` (seconds over those of the preset ``standard`` of the
-        same scene), ``reference`` (friction coefficient) and ``reference_error`` (its absolute bound). A run without
-        error or cost is left out, and counted in the note; the knob ``start`` is not drawn.
+        same scene; for the knob ``multiscale`` over those of its last rung), ``reference`` (friction coefficient) and
+        ``reference_error`` (its absolute bound). A run without error or cost is left out, and counted in the note; the
+        knob ``start`` is not drawn.
 
     Returns
     -------
@@ -231,6 +235,8 @@ def _note(table: pd.DataFrame, known: pd.DataFrame) -> str:
         f"Lines: medians over {scenes} scene{'s' if scenes > 1 else ''}, rungs from coarse to fine in the order above "
         "each panel; small grey diamonds: the presets. Errors below the panel are drawn at its lower edge."
     )
+    if (known["knob"] == _TOTAL).any():
+        note += " The way to the total is compared with all waves at once on the whole road, and so is its cost."
     lost = len(table) - len(known)
     if lost:
         note += f" {lost} of {len(table)} runs gave no error or cost and are left out."

@@ -28,6 +28,8 @@ _AXES = {
     "slope": "slope of the road",
     "wavelength_mm": "wavelength, mm",
     "poissons_ratio": "Poisson's ratio",
+    "waves": "waves (left slow, right fast)",
+    "rms": "rms slope\n(below light)",
     "branches": "Prony branches",
     "relaxed_share": "relaxed share",
 }
@@ -36,6 +38,7 @@ _ROWS = {
     "speed_pressure": ("speed and pressure", "velocity_mm_per_s", "pressure_MPa"),
     "limits": ("one branch", "velocity_mm_per_s", "pressure_MPa"),
     "aspect_slope": ("block and slope", "aspect", "slope"),
+    "waves": ("many waves", "waves", "slope"),
     "wavelength_speed": ("wavelength", "wavelength_mm", "velocity_mm_per_s"),
     "poisson_pressure": ("Poisson's ratio", "poissons_ratio", "pressure_MPa"),
     "branches_share": ("rubber", "branches", "relaxed_share"),
@@ -44,7 +47,7 @@ _ROWS = {
 }
 _WAYS = [(plane, kinematics) for plane in ("stress", "strain") for kinematics in ("small", "finite")]
 _CORNERS = [(motion, plane) for motion in ("steady", "march") for plane in ("stress", "strain")]
-_HEIGHT = 9.6
+_HEIGHT = 11.0
 # Labels are small, since squares are; of more values than this every other one is written.
 _LABEL_SIZE, _MOST_LABELS = 5.5, 6
 
@@ -64,7 +67,11 @@ def draw(table: pd.DataFrame) -> Figure:
         Where the table holds no case of a panel.
     """
     table = table.assign(look=[_look(*pair) for pair in zip(table["outcome"], table["reason"].fillna(""), strict=True)])
-    heights = [max(2, table.loc[table["panel"] == panel, row[2]].nunique()) for panel, row in _ROWS.items()]
+    parts = {panel: table[table["panel"] == panel] for panel in _ROWS}
+    heights = [
+        max(3, parts[panel][ordinate].nunique()) * (2 if panel == "waves" else 1)
+        for panel, (_, _, ordinate) in _ROWS.items()
+    ]
     figure = Figure(figsize=(DOUBLE_COLUMN, _HEIGHT), layout="constrained")
     grid = figure.subplots(
         len(heights) + 1,
@@ -73,8 +80,8 @@ def draw(table: pd.DataFrame) -> Figure:
         gridspec_kw={"height_ratios": [1.2 + rows for rows in (*heights, 6)]},
     )
     for axes, (panel, (title, abscissa, ordinate)) in zip(grid[:-1], _ROWS.items(), strict=True):
-        _row(list(axes), table[table["panel"] == panel], panel, abscissa, ordinate)
-        axes[0].set_ylabel(_AXES[ordinate])
+        _row(list(axes), parts[panel], panel, abscissa, ordinate)
+        axes[0].set_ylabel(_AXES["rms" if panel == "waves" else ordinate])
         axes[-1].annotate(title, (1.03, 0.5), xycoords="axes fraction", rotation=-90, ha="left", va="center")
     for panel, (plane, kinematics) in zip(grid[0], _WAYS, strict=True):
         panel.set_title(f"plane {plane}, {kinematics} strain")
@@ -91,14 +98,21 @@ def _look(outcome: str, reason: str) -> str:
 
 
 def _row(axes: list[Axes], part: pd.DataFrame, name: str, abscissa: str, ordinate: str) -> None:
-    """Draw the cases of one panel of the matrix, a square each."""
+    """Draw the cases of one panel of the matrix, a square each; a quarter each where speed and load vary as well."""
     if part.empty:
         raise InvalidInput(f"the table of stability has no case of the panel {name}, so its map would be empty")
     across, upward = (sorted(part[column].unique()) for column in (abscissa, ordinate))
+    held = {"velocity_mm_per_s", "pressure_MPa"} - {abscissa, ordinate}
+    speeds, loads = (
+        sorted(part[column].unique()) if column in held else [] for column in ("velocity_mm_per_s", "pressure_MPa")
+    )
+    wide, high = 1.0 / max(1, len(speeds)), 1.0 / max(1, len(loads))
     for panel, (plane, kinematics) in zip(axes, _WAYS, strict=True):
         for _, case in part[(part["plane"] == plane) & (part["kinematics"] == kinematics)].iterrows():
-            place = (across.index(case[abscissa]) - 0.5, upward.index(case[ordinate]) - 0.5)
-            panel.add_patch(Rectangle(place, 1.0, 1.0, linewidth=0.6, **_LOOKS[case["look"]]))
+            x, y = across.index(case[abscissa]) - 0.5, upward.index(case[ordinate]) - 0.5
+            x += wide * (speeds.index(case["velocity_mm_per_s"]) if speeds else 0)
+            y += high * (loads.index(case["pressure_MPa"]) if loads else 0)
+            panel.add_patch(Rectangle((x, y), wide, high, linewidth=0.6, **_LOOKS[case["look"]]))
         panel.set(xlim=(-0.5, len(across) - 0.5), ylim=(-0.5, len(upward) - 0.5))
         every = 2 if len(across) > _MOST_LABELS else 1
         panel.set_xticks(range(0, len(across), every), [_written(value) for value in across[::every]])

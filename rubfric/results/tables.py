@@ -35,7 +35,7 @@ _COLUMNS = {
     "warnings": "warnings",
 }
 # What a text may begin with that a spreadsheet would take for a formula, unless an apostrophe comes before it.
-_FORMULA, _AS_TEXT = r"^(?=[=+\-@\t\r])(?![+-]?[\d.]+(?:[eE][+-]?\d+)?$)", r"^'(?=[=+\-@\t\r])"
+_FORMULA, _AS_TEXT = r"^(?=[=+\-@\t\r＝＋－＠])(?![+-]?[\d.]+(?:[eE][+-]?\d+)?$)", r"^'(?=[=+\-@\t\r＝＋－＠])"
 _WHOLE = ("finite_strain", "meshes", "columns", "rows", "contact_nodes", "warnings")
 _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 

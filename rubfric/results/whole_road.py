@@ -10,11 +10,12 @@ from typing import Any
 from rubfric.errors import NotConverged
 from rubfric.mechanics.theory.coupling import Coupling, estimate
 from rubfric.mechanics.theory.layer import full_contact_pressure
+from rubfric.road.road import finest_waves
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
-# Contact fraction beyond which the whole road takes minutes in finite strain.
-_MOST_CONTACT = 0.22
+# Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain.
+_MOST_WAVES = 13.0
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class WholeRoad:
     def cheapest(self, velocity: float, pressure: float) -> str:
         """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
 
-        In finite strain it is the corrected sum where no way is, and much of the road is in contact: the whole road
+        In finite strain it is the corrected sum where no way is, and many of its waves are in contact: the whole road
         would take minutes there.
         """
         try:
@@ -69,13 +70,15 @@ class WholeRoad:
         except NotConverged:
             return "direct"
         way = ways.pop() if len(ways) == 1 else "direct"
-        dear = self.kinematics != "small" and self._contact(velocity, pressure) > _MOST_CONTACT
+        dear = self.kinematics != "small" and self._waves_in_contact(velocity, pressure) > _MOST_WAVES
         return "corrected" if way == "direct" and dear else way
 
-    def _contact(self, velocity: float, pressure: float) -> float:
-        """Return Persson's contact fraction of the whole road, erf(p / p*)."""
+    def _waves_in_contact(self, velocity: float, pressure: float) -> float:
+        """Return the finest waves of a period times Persson's contact fraction of the whole road, erf(p / p*)."""
         about = (velocity, self.height, self.plane)
-        return max(
-            math.erf(pressure / full_contact_pressure(self.material, road, *about)) if road.steepest_slope else 1.0
+        waves = [
+            finest_waves(road) * math.erf(pressure / full_contact_pressure(self.material, road, *about))
             for road in self.roads
-        )
+            if road.steepest_slope
+        ]
+        return max(waves, default=math.inf)

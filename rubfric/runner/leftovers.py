@@ -11,6 +11,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from rubfric.checksums import remove_signature
+
 # Time between the end of a job by Snakemake's record and the age of its files, at most, s.
 _SLACK = 2.0
 
@@ -45,6 +47,7 @@ def remove_leftovers(
                 changed.append(path)
             else:
                 os.remove(path)
+                remove_signature(path)
                 removed.append(path)
     lines = (
         [f"removed, since an earlier config made them and this one does not: {', '.join(removed)}"] if removed else []

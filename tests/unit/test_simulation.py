@@ -76,7 +76,9 @@ def test_wall_time_is_that_of_the_solution(scene: Scene, monkeypatch: pytest.Mon
 
 def test_scene_that_does_not_converge_has_no_result(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact, "MOST_STEPS", 1)
-    with pytest.raises(NotConverged, match=rf"^{scene.name}: not converged after 1 steps, number of .* is \d+$"):
+    with pytest.raises(
+        NotConverged, match=rf"^{scene.name}: not converged after 1 steps, number of .* is \d+; another mesh may do: "
+    ):
         simulate(scene)
 
 

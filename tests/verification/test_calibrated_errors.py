@@ -10,7 +10,9 @@ import pandas as pd
 import pytest
 
 from rubfric.config.campaign import load
+from rubfric.mechanics.steady.error import friction_error
 from rubfric.scene.scene import Scene
+from rubfric.simulation import solve
 from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, calibrate, coverage_table
 from rubfric.studies.accuracy.scenes import SETS, drawn_scenes
 
@@ -38,3 +40,21 @@ def test_estimates_cover_true_errors_and_not_much_more() -> None:
     assert found["ratio"] <= EXCESS
     standard = table[(table["preset"] == "standard") & table["estimate"].notna()]
     assert (standard["error"] <= PRESETS["standard"].accuracy).all()
+
+
+@pytest.mark.parametrize(
+    ("velocity", "pressure", "plane", "kinematics", "preset", "reference"),
+    [
+        (1e4, 3.0, "strain", "small", "standard", 0.231242),  # the finest waves have 48 columns each
+        (1e3, 5.0, "strain", "small", "draft", 0.551094),
+        (1e4, 0.5, "stress", "finite", "draft", 0.058760),  # four nodes in a spot, on one number of columns
+    ],
+)
+def test_estimates_cover_the_true_errors_of_whole_roads(
+    velocity: float, pressure: float, plane: str, kinematics: str, preset: str, reference: float
+) -> None:
+    """References are those of ``converge``, within 0.1 %."""
+    scene = CAMPAIGN.scene("all", velocity, pressure, plane=plane, kinematics=kinematics, preset=preset)
+    solution = solve(scene)
+    error = abs(solution.friction.stress_power - reference)
+    assert error <= friction_error(solution) <= 0.1 * reference

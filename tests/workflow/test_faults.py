@@ -271,7 +271,7 @@ def test_lost_memory_repeats_no_work_and_takes_no_other_scene_for_a_result(victi
     subprocess.run(["rm", "-r", ".snakemake/metadata"], cwd=victim.root, check=True)
     assert victim.plan(*TARGETS).jobs == {}
     victim.configure("rubber", "soft", "tiny.yaml")
-    soft = {"youngs_modulus": 1.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
+    soft = {"youngs_modulus": 4.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
     victim.configure("rubbers", {"soft": soft}, "tiny.yaml")
     (victim.results / "scenes" / "zhou2019").rename(victim.results / "scenes" / "soft")
     said = refused(victim, lambda: None)

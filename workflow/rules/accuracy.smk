@@ -2,11 +2,14 @@
 # about an hour on two cores, and is no part of `all`. It measures the paper's rubber and road, whatever the config.
 PAPER = load(PAPER_CONFIG)
 PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
-LADDERS = fixed_scenes(PAPER)
+LADDERS = fixed_scenes(PAPER) | total_scenes(PAPER)
 DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
     PAPER, count=48, seed=2019
 )
-DRAWN_BATCHES = dict(enumerate(batches(list(DRAWN), 6)))
+# Each in finite strain on the whole road is a job of its own: a reference takes two to three gigabytes.
+FINITE = finite_scenes(PAPER, count=12, seed=2019)
+DRAWN_BATCHES = dict(enumerate([*batches(list(DRAWN), 6), *batches(list(FINITE), 1)]))
+DRAWN |= FINITE
 ACCURACY = {
     name: f"{RESULTS}/accuracy/{name}.{kind}"
     for name, kind in [
@@ -25,12 +28,14 @@ ACCURACY_WORDS = {
 
 rule ladder:
     input:
-        package_files("rubfric.studies.accuracy.ladder"),
+        package_files("rubfric.studies.accuracy.ways"),
         script=script_copy("measure_ladder.py"),
     output:
         f"{RESULTS}/accuracy/ladders/{{scene}}.csv",
     log:
         f"{RESULTS}/logs/accuracy/{{scene}}.log",
+    wildcard_constraints:
+        scene="|".join(LADDERS),
     localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: LADDERS[wildcards.scene].parameters(),

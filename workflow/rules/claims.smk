@@ -1,9 +1,11 @@
-# The paper's claims, judged by the campaign where the config asks for it; and other readings of what the paper leaves open, in batches of one scale
-# and speed, so that a new speed runs its own scenes only.
+# The paper's claims, judged by the campaign where the config asks for it; and other readings of what the paper leaves
+# open, in batches of one scale and speed, so that a new speed runs its own scenes only. Each has the whole road too, the
+# first of random ones, with its coarsest scale.
 JUDGE = CAMPAIGN.claims
 READINGS = {name: CAMPAIGN.reading(name) for name in (JUDGE.compare if JUDGE else ())}
 OBSERVED = {
-    name: batches_by_speed(reading.scenes()) for name, reading in READINGS.items()
+    name: batches_by_speed(reading.scenes() | whole_once(reading))
+    for name, reading in READINGS.items()
 }
 CLAIMS = {
     "claims": f"{RESULTS}/tables/claims.csv",
@@ -90,8 +92,12 @@ if JUDGE:
                 ],
                 "marches": [scene.digest for scene in MARCHES.values()],
                 "readings": {
-                    name: [scene.digest for scene in reading.scenes().values()]
-                    for name, reading in READINGS.items()
+                    name: [
+                        scene.digest
+                        for batch in parts.values()
+                        for scene in batch.values()
+                    ]
+                    for name, parts in OBSERVED.items()
                 },
             },
             criteria=criteria(CAMPAIGN),

@@ -2,7 +2,7 @@
 import os
 import sys
 from types import SimpleNamespace
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
@@ -21,10 +21,13 @@ from rubfric.runner.opening import Costs, understood
 from rubfric.runner.progress import kind
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import copy_of, stamp, stamp_files
+from rubfric.scene.scene import ALL
 from rubfric.studies.accuracy.scenes import (
     batches,
     drawn_scenes,
+    finite_scenes,
     fixed_scenes,
+    total_scenes,
     whole_scenes,
 )
 
@@ -143,12 +146,23 @@ def reading_file(reading, batch):
 
 
 def batches_by_speed(scenes):
-    """Return scenes by name, in batches of one scale and speed."""
+    """Return scenes by name, in batches of one scale and speed; the whole road is with its coarsest scale."""
     batches = {}
     for name, scene in scenes.items():
-        batch = f"scale{scene.scale}_v{written(scene.velocity)}"
+        scale = 1 if scene.scale == ALL else scene.scale
+        batch = f"scale{scale}_v{written(scene.velocity)}"
         batches.setdefault(batch, {})[name] = scene
     return batches
+
+
+def whole_once(reading):
+    """Return the scenes of the whole road by name, of random roads the first, as accurate as a reading's others."""
+    first = next(iter(reading.whole_roads), "")
+    return {
+        scene.name: replace(scene, numerics=reading.numerics)
+        for name, scene in reading.whole_scenes().items()
+        if name == f"{first}{scene.name}"
+    }
 
 
 def criteria(campaign):

@@ -22,6 +22,7 @@ WHOLE_FIGURES = ["fig11"] if WHOLE else []
 
 # Three fast speeds at two light loads, where all scales at once are solved in seconds; of random roads the first.
 DRAW = next(iter(CAMPAIGN.whole_roads), "")
+DRAWS = len(CAMPAIGN.whole_roads) if DRAW else 0
 SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
@@ -164,13 +165,17 @@ rule whole_figure:
         results=[whole_file(name) for name in SHOWN_WHOLE],
     output:
         **pictures(
-            "fig11", "../report/whole_figure.rst", lambda _: FIGURE_WORDS["fig11"]
+            "fig11",
+            "../report/whole_figure.rst",
+            lambda _: FIGURE_WORDS["fig11"]
+            + (f", first of {DRAWS} random roads" if DRAWS else ""),
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
     localrule: True
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
+        draws=DRAWS,
     message:
         "Drawing fig11"
     run:
@@ -180,6 +185,7 @@ rule whole_figure:
             results=list(input.results),
             outputs=list(output),
             digests=params.digests,
+            draws=params.draws,
         )
 
 

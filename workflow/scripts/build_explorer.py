@@ -2,6 +2,7 @@
 
 import netCDF4
 
+from rubfric.checksums import check_seal
 from rubfric.pages.explorer.data import payload
 from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
@@ -53,5 +54,6 @@ def main(
 
 def refused(path: str) -> bool:
     """Return whether a file holds the refusal of a scene."""
+    check_seal(path)
     with netCDF4.Dataset(path) as stored:
         return REFUSAL in stored.ncattrs()

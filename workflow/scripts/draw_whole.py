@@ -7,7 +7,7 @@ from rubfric.results.dataset import load
 from rubfric.results.provenance import OTHER_SCENE
 
 
-def main(results: list[str], digests: list[str], outputs: list[str]) -> None:
+def main(results: list[str], digests: list[str], outputs: list[str], draws: int) -> None:
     """Draw figure 11 and save it under every path of ``outputs``.
 
     Parameters
@@ -16,10 +16,12 @@ def main(results: list[str], digests: list[str], outputs: list[str]) -> None:
         Paths of the results or refusals (netCDF), and the digests that they must have.
     outputs : list of str
         Paths; their endings choose the formats.
+    draws : int
+        Roads with random phases, of which the results are of the first; 0 where phases are given.
     """
     read = []
     for path, digest in zip(results, digests, strict=True):
         read.append(load(path))
         if read[-1].attrs.get("scene_digest") != digest:
             raise BrokenResult(f"{path} {OTHER_SCENE}; delete it and run again")
-    save(fig11.draw(read), *outputs)
+    save(fig11.draw(read, draws), *outputs)

@@ -144,7 +144,26 @@ def _carried(contact: Contact, nodes: int, nominal: float) -> Contact:
     return Contact(pressure * (nominal / pressure.mean()), contact.gap[place], contact.offset, 0)
 
 
-def follow(surface: Surface, profile: Real, nominal: float, near: Contact, label: str = "contact") -> Contact:
+def even_contact(touching: Flags, nominal: float) -> Contact:
+    """Return the contact that bears a nominal pressure, MPa, alike on all nodes that touch, and leaves no gap.
+
+    Parameters
+    ----------
+    touching : ndarray of bool, shape (n,)
+        Not empty.
+    nominal : float
+    """
+    return Contact(touching * (nominal / touching.mean()), np.zeros(len(touching)), 0.0, 0)
+
+
+def follow(
+    surface: Surface,
+    profile: Real,
+    nominal: float,
+    near: Contact,
+    label: str = "contact",
+    most_steps: int = _MOST_STEPS_ALONG,
+) -> Contact:
     """Solve the complementarity problem from any contact of the surface, with whatever profile.
 
     Pivots start from its nodes. Where they cycle, its profile, which follows from C p and the gap, turns into the given
@@ -162,6 +181,8 @@ def follow(surface: Surface, profile: Real, nominal: float, near: Contact, label
         Pressure and gap at n nodes, one of them zero at each; of the same nominal pressure.
     label : str
         Name that an error carries.
+    most_steps : int
+        Pivoting steps of all attempts after which to give up.
 
     Raises
     ------
@@ -177,7 +198,7 @@ def follow(surface: Surface, profile: Real, nominal: float, near: Contact, label
             found = pivot(surface, (1.0 - aim) * begin + aim * profile, nominal, touching, label, most)
         except NotConverged as error:
             steps, ahead = steps + error.step, ahead / 4.0
-            if not np.isfinite(error.residual) or ahead < _LEAST_SHARE or steps > _MOST_STEPS_ALONG:
+            if not np.isfinite(error.residual) or ahead < _LEAST_SHARE or steps > most_steps:
                 raise
             continue
         steps += found.iterations
@@ -247,4 +268,10 @@ def pivot(
             touching[np.flatnonzero(violated)[-1]] ^= True
         if not touching.any():
             touching[int(np.argmin(gap))] = True
-    raise NotConverged(label, most_steps, count, "number of surface nodes that violate contact")
+    raise NotConverged(
+        label,
+        most_steps,
+        count,
+        "number of surface nodes that violate contact",
+        "another mesh may do: change numerics.columns_min or numerics.contact_nodes",
+    )

@@ -17,11 +17,12 @@ from functools import cached_property
 import numpy as np
 
 from rubfric.arrays import Complex, Flags, Real, Whole
-from rubfric.mechanics.block.contact import Contact, pivot
+from rubfric.errors import NotConverged
+from rubfric.mechanics.block.contact import Contact, even_contact, follow, pivot
 from rubfric.mechanics.block.surface import inverse
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stressed
 from rubfric.mechanics.finite.circulant import Circulant, RightSide
-from rubfric.road.road import Road
+from rubfric.road.road import Road, finest_waves
 
 # A change of volume counts for so much less than one of thickness: rubber yields to it so much less.
 _VOLUME = 0.03
@@ -29,6 +30,8 @@ _VOLUME = 0.03
 _FLAT = 1e-7
 # A linearised contact that takes more pivots is that of fields too far off: rarely one has a solution.
 _MOST_PIVOTS = 100
+# Where they cycle, on a road of one wave: all pivots on the way from an even contact.
+_MOST_PIVOTS_ALONG = 1000
 
 
 @dataclass(frozen=True)
@@ -202,7 +205,13 @@ class SlidingContact:
         above = fields.displacement[1, 0] - load.height(position)
         height = above - slope * free[0] + free[1]
         surface = SlopedSurface(circulant.compliance, slope, width)
-        contact = pivot(surface, -height, load.pressure, touching, self.label, _MOST_PIVOTS)
+        try:
+            contact = pivot(surface, -height, load.pressure, touching, self.label, _MOST_PIVOTS)
+        except NotConverged as cycling:
+            if not np.isfinite(cycling.residual) or finest_waves(load.road) > 1:
+                raise
+            near = even_contact(touching, load.pressure)
+            contact = follow(surface, -height, load.pressure, near, self.label, _MOST_PIVOTS_ALONG)
         step = self.yielding(circulant, right, slope, contact.pressure, contact.offset)
         return Correction(step, contact, position, slope, state, right, above, height)
 

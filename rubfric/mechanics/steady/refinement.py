@@ -15,8 +15,9 @@ import numpy as np
 
 from rubfric.errors import InvalidInput
 from rubfric.mechanics.steady.error import ORDER, allowance, discretisation_error
-from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, most_columns
+from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, count_spots, most_columns
 from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
+from rubfric.road.road import finest_waves
 from rubfric.scene.scene import Scene
 
 # Share of the contact nodes asked for that a mesh may miss, since their number is known only afterwards.
@@ -121,8 +122,10 @@ def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, mesh
             f"{resolution.columns} columns a mesh has more than {MOST_SMALL_CELLS:,} cells"
         )
     solution = solver.solve(resolution)
-    touching = int(np.count_nonzero(solution.contact.touching))
+    touching = solution.contact.touching
+    count, waves, spots = int(np.count_nonzero(touching)), finest_waves(scene.road), count_spots(scene, touching)
     block = solution.block
     first_row = float(block.row_positions[1] / block.column_width)
-    meshes.append(OnMesh(block.columns, block.rows, resolution.growth, touching, solution.friction, first_row))
+    about = (block.columns, block.rows, resolution.growth, count, solution.friction, first_row, waves, spots)
+    meshes.append(OnMesh(*about))
     return solution

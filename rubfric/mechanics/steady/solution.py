@@ -46,6 +46,10 @@ class OnMesh:
     friction : Friction
     first_row : float
         Height of the row of cells at the road over the width of a column.
+    waves : int
+        How many times the finest wave of the road fits into the columns.
+    spots : int
+        Separate places of contact; one on a single wave.
     """
 
     columns: int
@@ -54,6 +58,8 @@ class OnMesh:
     contact_nodes: int
     friction: Friction
     first_row: float = 1.0
+    waves: int = 1
+    spots: int = 1
 
 
 def fold_scene(scene: Scene, wavenumbers: Real) -> Folding:

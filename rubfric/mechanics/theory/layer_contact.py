@@ -24,7 +24,7 @@ from rubfric.rubber.material import Material
 # Surface nodes wanted in contact on a sine, and the least and most along it.
 _NODES, _FEWEST, _MOST = 32, 64, 16384
 # On a whole road: nodes along the finest wave and in contact that are enough, and most nodes of all.
-_PER_WAVE, _TOUCHING = 16, 64
+_PER_WAVE, _TOUCHING = 16, 128
 # The first guess of the contact: that of an elastic half-space, this much wider.
 _FIRST_GUESS = 1.2
 
@@ -100,7 +100,7 @@ def load_sine(layer: Layer, road: SineScale, pressure: float) -> Loaded:
 def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
     """Return the contact of a layer with a road of many waves.
 
-    Surfaces of twice as many nodes each follow one another, to 16 on the finest wave and 64 in contact.
+    Surfaces of twice as many nodes each follow one another, to 16 on the finest wave and 128 in contact.
 
     Parameters
     ----------

@@ -25,6 +25,8 @@ _LEAST_HEIGHT = 0.1
 # Contact that a half-space has at the excitation frequency is at least that of the block, whose finer waves are stiffer
 # still; this margin covers what finite strain and a flat block add.
 _MARGIN = 2.0
+# What is advised puts so many times the fewest nodes into the contact that the half-space has.
+_ADVISED = 1.5
 # Heights this near to one another, over those of the road, are one height.
 _LEVEL = 1e-9
 # Largest bulk modulus over shear modulus: far beyond any rubber, and far below the inverse of double precision. In
@@ -120,13 +122,20 @@ def require_resolvable(scene: Scene, columns: int, remedy: str) -> None:
     if _MARGIN * estimated_fraction(scene) * columns >= fewest:
         return
     filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
-    fraction = fewest / (_MARGIN * columns)
+    fraction = min(_ADVISED * fewest / columns, 0.5)
     ratio = erfinv(fraction) if isinstance(scene.road, WaveRoad) else math.sin(0.5 * math.pi * fraction) ** 2
-    lightest = filling * ratio
     raise InvalidInput(
-        f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at least {lightest:.2g} MPa: "
-        f"lighter contacts have fewer than {fewest} surface nodes on the finest mesh, of {columns} columns; {remedy}"
+        f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at least about "
+        f"{_rounded(filling * ratio, 2, up=True):g} MPa: so light a contact has fewer than {fewest} surface nodes on "
+        f"the finest mesh, of {columns} columns; {remedy}"
     )
+
+
+def _rounded(value: float, digits: int, up: bool) -> float:
+    """Return a positive number in so many digits, no smaller than it was, or no larger."""
+    unit = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    steps = value / unit
+    return float(f"{(math.ceil(steps) if up else math.floor(steps)) * unit:.{digits}g}")
 
 
 def require_height(scene: Scene) -> None:
@@ -139,9 +148,9 @@ def require_height(scene: Scene) -> None:
     """
     left = pressed(scene.material, scene.pressure, scene.plane)[0]
     if left < _LEAST_HEIGHT:
-        heaviest = pressing(scene.material, _LEAST_HEIGHT, scene.plane)
+        heaviest = _rounded(pressing(scene.material, _LEAST_HEIGHT, scene.plane), 3, up=False)
         raise InvalidInput(
-            f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at most {heaviest:.3g} MPa: it leaves "
+            f"pressure of {scene.name} is {scene.pressure:g} MPa, but must be at most {heaviest:g} MPa: it leaves "
             f"{left:.2%} of the height of the relaxed block; less than {_LEAST_HEIGHT:.0%} is outside the model's range"
         )
 
@@ -160,10 +169,11 @@ def require_columns(scene: Scene, columns: int, fewest: float) -> None:
     ------
     InvalidInput
     """
-    needed = fewest / (_MARGIN * estimated_fraction(scene))
-    if columns < needed:
+    needed = fewest / estimated_fraction(scene)
+    if _MARGIN * columns < needed:
+        advised = 8 * math.ceil(_ADVISED * needed / 8)
         raise InvalidInput(
-            f"procedure.columns is {columns}, but must be at least {8 * math.ceil(needed / 8)} for {scene.name}: so "
+            f"procedure.columns is {columns}, but must be at least about {advised} for {scene.name}: so "
             f"light a contact has fewer than {fewest:g} surface nodes otherwise"
         )
 
@@ -187,10 +197,13 @@ def require_resolved(scene: Scene, touching: Flags, steps: int, remedy: str) -> 
     """
     count, fewest = int(np.count_nonzero(touching)), fewest_nodes(scene)
     if count < fewest:
+        # On a sine the contact widens as the root of so light a load, on many waves faster.
+        heavier = scene.pressure * (_ADVISED * fewest / max(count, 1)) ** 2
         raise NotConverged(
             scene.name,
             steps,
             count,
             f"number of surface nodes in contact, out of {len(touching)},",
-            f"at least {fewest} make a prediction: raise the pressure; {remedy}",
+            f"at least {fewest} make a prediction: raise the pressure to about {_rounded(heavier, 2, up=True):g} MPa; "
+            f"{remedy}",
         )

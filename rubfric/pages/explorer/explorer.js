@@ -204,7 +204,8 @@ function showTotal() {
   byId("small-pictures").replaceChildren(...[...(pictured ? [data.whole] : []), ...data.scales].map(smallPicture));
   byId("energies").replaceChildren();
   byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
-    "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored.";
+    "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored." +
+    (data.whole?.draws ? ` The whole road in the picture is the first of ${data.whole.draws} with random phases.` : "");
   byId("spot").hidden = true;
   byId("numbers").replaceChildren(totalNumbers(data, chosen));
   byId("warnings").replaceChildren(...warningsOf(scenes));

@@ -9,6 +9,7 @@ The knobs are turned one at a time, from the mesh of fineness 1 without further 
 - ``folding``: the share of the accuracy that leaving out Prony branches may use;
 - ``tolerance`` of the solver in finite strain;
 - ``steps`` per wavelength, marched in time from steady sliding; ``wavelengths`` pressed and slid;
+- ``multiscale``, on scenes of the whole road: the way from its scales to the total (``rubfric.studies.accuracy.ways``);
 - ``start``: a target accuracy, and the fineness of the first mesh from which it is reached: presets are chosen among
   these (``rubfric.studies.accuracy.presets``).
 """
@@ -126,10 +127,20 @@ def measure_ladder(name: str, scene: Scene) -> pd.DataFrame:
     standard = next(row for row in found if (row["knob"], row["rung"]) == ("mesh", "1"))
     if standard.get("columns", math.inf) <= _MARCH_COLUMNS:  # none where it was refused
         found += _marches(scene, int(standard["columns"]) // 16 * 8)
-    return _table(name, scene, reference, found)
+    return gather(name, scene, reference, found)
 
 
 def _steady(scene: Scene) -> dict[str, Any]:
+    """Return the row of a scene; without its estimate in small strain, which is no error to the finite reference."""
+    row = measure_steady(scene)
+    if scene.kinematics == "small" and "estimate" in row:
+        row |= {"estimate": float("nan"), "note": "estimates are to small strain where it is asked for"}
+    return row
+
+
+def measure_steady(scene: Scene) -> dict[str, Any]:
+    """Return the friction of a scene, its estimated error (absolute) and its cost: a row of the ladder, or its note."""
+
     def compute() -> SteadySolution:
         solution = solve(scene)
         evaluate(solution)
@@ -140,10 +151,9 @@ def _steady(scene: Scene) -> dict[str, Any]:
     except NotConverged as error:
         return {"note": str(error)}
     solution = cost.result
-    asked = scene.kinematics == "small"
     return {
         "friction_coefficient": solution.friction.stress_power,
-        "estimate": float("nan") if asked else friction_error(solution),
+        "estimate": friction_error(solution),
         "seconds": cost.seconds,
         "iterations": solution.iterations,
         "krylov": solution.krylov,
@@ -152,7 +162,7 @@ def _steady(scene: Scene) -> dict[str, Any]:
         "rows": solution.block.rows,
         "meshes": len(solution.meshes),
         "kinematics": solution.decision.kinematics,
-        "note": "estimates are to small strain where it is asked for" if asked else "",
+        "note": "",
     }
 
 
@@ -208,7 +218,17 @@ COLUMNS = (
 )
 
 
-def _table(name: str, scene: Scene, reference: Converged, found: list[dict[str, Any]]) -> pd.DataFrame:
+def gather(name: str, scene: Scene, reference: Converged, found: list[dict[str, Any]]) -> pd.DataFrame:
+    """Return measured rungs as a table with errors relative to the reference.
+
+    Parameters
+    ----------
+    name, scene
+        As for ``measure_ladder``.
+    reference : Converged
+    found : list of dict
+        Of each rung: ``knob``, ``rung`` and what ``measure_steady`` returns.
+    """
     table = pd.DataFrame(found).reindex(columns=list(COLUMNS))
     table["scene"], table["plane"] = name, scene.plane
     table["velocity"], table["pressure"] = scene.velocity, scene.pressure

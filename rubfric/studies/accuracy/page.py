@@ -7,6 +7,7 @@ import pandas as pd
 from rubfric.markdown import markdown_table
 from rubfric.studies.accuracy.calibration import COVERAGE, EXCESS, coverage_table
 from rubfric.studies.accuracy.presets import knob_table, start_table
+from rubfric.studies.accuracy.ways import DIRECT, KNOB
 
 # Entry of a table without a number.
 _NOTHING = "-"
@@ -23,7 +24,11 @@ _KNOBS = {
     "tolerance": "Distance from balance at which Newton's method stops, in finite strain.",
     "steps": "Marched in time from steady sliding: steps per wavelength, on a mesh of fineness 0.5.",
     "wavelengths": "Pressed and slid in time, 32 steps per wavelength: wavelengths slid.",
+    KNOB: "The whole road at an accuracy of 1 %: the way from its scales to the total, against the converged friction "
+    "of all waves at once, in small strain and, where it is light and fast, in finite strain. Costs are over that of "
+    "the direct way.",
 }
+_PLACE = {"velocity": "v (mm/s)", "pressure": "p (MPa)"}
 # One rung down from the mesh of fineness 1 (the first rung of each pair): what the knob changes there.
 _TURNS = {
     "surface": ("0.5", "half the columns"),
@@ -57,17 +62,18 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
         Their accuracies, by name.
     """
     knobs = knob_table(ladder)
-    reference = (ladder["reference_error"] / ladder["reference"].abs()).groupby(ladder["scene"]).first()
+    singles = ladder[ladder["knob"] != KNOB]
+    reference = (singles["reference_error"] / singles["reference"].abs()).groupby(singles["scene"]).first()
     parts = [
         "# Accuracy against cost",
-        f"{ladder['scene'].nunique()} scenes of the paper's rubber and road (every scale, slow to fast, 0.1 to 5 MPa, "
+        f"{singles['scene'].nunique()} scenes of the paper's rubber and road (every scale, slow to fast, 0.1 to 5 MPa, "
         "both planes, flat and tall blocks), each on a ladder of every knob, one knob at a time. An error is the "
         "distance from the scene's converged friction in finite strain: three meshes, each 1.4 times finer than the "
         f"one before, and their extrapolation, whose own error is bounded by {_percent(reference.max())} "
         f"(median {_percent(reference.median())}). Costs are ratios of wall time to the preset `standard`, measured "
         "on the same scene in the same process.",
         "## Presets",
-        preset_text(ladder, presets),
+        preset_text(singles, presets),
         "Each begins with the first mesh that is the cheapest for its accuracy and keeps it on every scene (the finest "
         "of those that cost the same within 15 %), and refines it where the estimated error says so:",
         _markdown(_formatted(start_table(ladder))),
@@ -83,6 +89,8 @@ def accuracy_page(ladder: pd.DataFrame, calibration: pd.DataFrame, presets: dict
         rungs = knobs[knobs["knob"] == knob]
         if len(rungs):
             parts += [f"### `{knob}`", f"{words} {_bought(rungs)}", _markdown(_formatted(rungs.drop(columns="knob")))]
+    if (ladder["knob"] == KNOB).any():
+        parts += ["How far each way is from all waves at once, scene by scene:", _markdown(ways_table(ladder))]
     return "\n\n".join(parts) + "\n"
 
 
@@ -146,6 +154,21 @@ def dominance(ladder: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def ways_table(ladder: pd.DataFrame) -> pd.DataFrame:
+    """Return the error and, in brackets, the cost of every way to the total, a row for each scene of the whole road."""
+    rows = []
+    for _, part in ladder[ladder["knob"] == KNOB].groupby("scene", sort=False):
+        at = part.set_index("rung")
+        row = {
+            "strain": at.loc[DIRECT, "kinematics"],
+            "plane": at["plane"].iloc[0],
+            **{words: f"{at[name].iloc[0]:g}" for name, words in _PLACE.items()},
+            "all at once, seconds": _seconds(at.loc[DIRECT, "seconds"]),
+        }
+        rows.append(row | {way: f"{_percent(one['error'])} ({_seconds(one['cost'])})" for way, one in at.iterrows()})
+    return pd.DataFrame(rows)
+
+
 def _changes(ladder: pd.DataFrame) -> pd.DataFrame:
     base = ladder.query("knob == 'mesh' and rung == '1'").set_index("scene")["friction_coefficient"]
     parts = [ladder[(ladder["knob"] == knob) & (ladder["rung"] == rung)] for knob, (rung, _) in _TURNS.items()]
@@ -194,6 +217,10 @@ def _formatted(table: pd.DataFrame) -> pd.DataFrame:
     if "chosen" in shown:
         shown["chosen"] = shown["chosen"].map({True: "yes", False: ""})
     return shown.rename(columns=lambda name: str(name).replace("_MB", ", MB").replace("_", " "))
+
+
+def _seconds(value: float) -> str:
+    return _NOTHING if pd.isna(value) else f"{value:.2g}"
 
 
 def _percent(share: float) -> str:

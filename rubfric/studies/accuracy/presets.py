@@ -9,6 +9,7 @@ import pandas as pd
 from rubfric.errors import BrokenResult
 from rubfric.scene.numerics import Numerics, fineness
 from rubfric.studies.accuracy.ladder import STARTS
+from rubfric.studies.accuracy.ways import DIRECT, KNOB
 
 # First meshes whose costs differ by less than this share count as equally cheap: the finest of them is taken.
 _TIE = 0.15
@@ -28,7 +29,7 @@ def with_costs(ladder: pd.DataFrame, accuracies: Mapping[str, float]) -> pd.Data
     -------
     pandas.DataFrame
         First the presets, as rungs of a knob ``preset``; with a column ``cost``, the seconds over those of
-        ``standard`` on the same scene.
+        ``standard`` on the same scene, which on the whole road is the direct one.
 
     Raises
     ------
@@ -44,7 +45,10 @@ def with_costs(ladder: pd.DataFrame, accuracies: Mapping[str, float]) -> pd.Data
         rows = ladder[(ladder["knob"] == "start") & (ladder["rung"] == _rung(accuracy, first.iloc[0]))]
         parts.append(rows.assign(knob="preset", rung=name))
     whole = pd.concat([*parts, ladder], ignore_index=True)
-    standard = whole[(whole["knob"] == "preset") & (whole["rung"] == "standard")].set_index("scene")["seconds"]
+    base = (whole["knob"] == "preset") & (whole["rung"] == "standard") | (whole["knob"] == KNOB) & (
+        whole["rung"] == DIRECT
+    )
+    standard = whole[base].set_index("scene")["seconds"]
     return whole.assign(cost=whole["seconds"] / whole["scene"].map(standard))
 
 

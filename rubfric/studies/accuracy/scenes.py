@@ -44,6 +44,19 @@ _FIXED = (
     (4, 1000, 5, 0.75, "strain"),
     (4, 10000, 0.5, 0.75, "stress"),
 )
+# On the whole road: speed in mm/s, pressure in MPa, plane, kinematics. In finite strain the light and fast ones, whose
+# references are affordable.
+_TOTALS = (
+    (0.1, 0.1, "strain", "small"),
+    (10, 0.5, "stress", "small"),
+    (100, 5, "strain", "small"),
+    (1000, 0.5, "strain", "small"),
+    (1000, 5, "stress", "small"),
+    (10000, 0.5, "stress", "small"),
+    (100, 0.1, "stress", "finite"),
+    (1000, 0.2, "strain", "finite"),
+    (10000, 0.5, "stress", "finite"),
+)
 # Ranges of the drawn scenes: speeds in mm/s, pressures in MPa, height over width; inside and outside.
 _RANGES = {
     "inside": {"velocity": (0.1, 1e4), "pressure": (0.1, 5.0), "aspect": (0.25, 1.5)},
@@ -53,8 +66,10 @@ _SLOPES, _WAVELENGTHS, _BRANCHES = (0.03, 1.0), (2e-3, 5.0), 8
 SETS = tuple(_RANGES)
 # Whole roads other than the paper's: waves, the most often that the finest of them fits into the period, and the
 # steepest slope.
-WHOLE = "whole"
+WHOLE, FINITE = "whole", "finite"
 _WAVES, _FINEST, _STEEPEST = (2.0, 64.0), 128, (0.1, 3.0)
+# Ranges on the paper's whole road in finite strain.
+_LIGHT = {"velocity": (50.0, 1e4), "pressure": (0.1, 0.6), "aspect": (0.5, 1.0)}
 
 
 def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
@@ -64,6 +79,15 @@ def fixed_scenes(campaign: Campaign) -> dict[str, Scene]:
         for scale, velocity, pressure, aspect, plane in _FIXED
     )
     return {scene.name: scene for scene in scenes}
+
+
+def total_scenes(campaign: Campaign) -> dict[str, Scene]:
+    """Return the scenes on which the ways to the total are compared, by their kinematics and name."""
+    scenes = (
+        campaign.scene(ALL, velocity, pressure, plane=plane, kinematics=kinematics)
+        for velocity, pressure, plane, kinematics in _TOTALS
+    )
+    return {f"{scene.kinematics}_{scene.name}": scene for scene in scenes}
 
 
 def drawn_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
@@ -101,8 +125,7 @@ def whole_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
     """Return drawn scenes on whole roads by name, ``whole_0`` to ``whole_<count - 1>``.
 
     Every other one is on the paper's road, inside its grid, with random phases; the others are outside, on roads of
-    two to 64 random waves. All are in small strain: in finite strain a scene itself may need most of the cells that a
-    mesh may have, and a reference has to be finer.
+    two to 64 random waves. All are in small strain; ``finite_scenes`` are in finite strain.
 
     Parameters
     ----------
@@ -114,6 +137,30 @@ def whole_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
     """
     rng = np.random.default_rng(seed)
     return {f"{WHOLE}_{number}": _whole(campaign, rng, number) for number in range(count)}
+
+
+def finite_scenes(campaign: Campaign, count: int, seed: int) -> dict[str, Scene]:
+    """Return drawn scenes on the paper's whole road in finite strain by name, ``finite_0`` to ``finite_<count - 1>``.
+
+    Phases are random. All are light and fast: others need most of the cells that a mesh may have in finite strain, and
+    a reference has to be finer.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Its road and rubber.
+    count : int
+    seed : int
+        Of the random numbers.
+    """
+    rng = np.random.default_rng(seed)
+    found = {}
+    for number in range(count):
+        velocity, pressure, aspect = (_between(rng, *limits) for limits in _LIGHT.values())
+        road = replace(campaign.whole_road, phases=_phases(rng, len(campaign.road)))
+        scene = campaign.scene(ALL, velocity, pressure, aspect, PLANES[number % len(PLANES)], FINITE)
+        found[f"{FINITE}_{number}"] = replace(scene, road=road)
+    return found
 
 
 def _whole(campaign: Campaign, rng: np.random.Generator, number: int) -> Scene:

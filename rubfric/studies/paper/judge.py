@@ -15,8 +15,8 @@ from rubfric.results.totals import total_table
 from rubfric.results.whole_road import WholeRoad
 from rubfric.studies.paper.claims import CLAIMS
 from rubfric.studies.paper.evidence import depth_evidence, gather, march_evidence, march_note, rig_evidence, rig_note
-from rubfric.studies.paper.observation import among, over_axes, profile_row, refusals, table
-from rubfric.studies.paper.totals import total_evidence, total_note
+from rubfric.studies.paper.observation import WHOLE, among, over_axes, profile_row, refusals, table
+from rubfric.studies.paper.totals import reading_note, total_evidence, total_note
 from rubfric.studies.paper.verdicts import claims_table, evidence_table
 
 
@@ -96,13 +96,17 @@ def judge(
             "C9": total_note(totals),
         }
     }
-    for reading, rows in readings.items():
+    for reading, found in readings.items():
+        rows, whole = found[found["scale"] != WHOLE], found[found["scale"] == WHOLE]
         observed = over_axes(rows)
-        sums = total_table(observed, None, roads[reading]).assign(**dict.fromkeys(TOTAL, np.nan))
+        direct = over_axes(whole).reindex(velocity=observed["velocity"], pressure=observed["pressure"])
+        sums = total_table(observed, direct if len(whole) else None, roads[reading])
+        # C7 asks for every speed, of which only some are light enough.
+        sums = sums.assign(**dict.fromkeys(TOTAL, np.nan))
         evidence[reading] = [
             *gather(observed, criteria.aspect, criteria.studied, criteria.difference),
             *total_evidence(sums, observed.sel(aspect=criteria.aspect), criteria.difference),
             *depth_evidence(rows[among(rows, criteria.profiled)], criteria.difference),
         ]
-        notes[reading] = dict.fromkeys(CLAIMS, refusals(rows))
+        notes[reading] = dict.fromkeys(CLAIMS, refusals(rows)) | {"C9": reading_note(sums, whole)}
     return claims_table(evidence, criteria.total_pressure, notes), evidence_table(evidence)

@@ -10,7 +10,8 @@ import pandas as pd
 import xarray as xr
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.scene.scene import Scene
+from rubfric.mechanics.theory.limits import estimated_fraction
+from rubfric.scene.scene import ALL, Scene
 from rubfric.simulation import simulate
 
 SCALARS = ("friction_coefficient", "friction_coefficient_error", "contact_fraction", "columns", "nominal_compression")
@@ -23,6 +24,11 @@ DEPTH = {
 AXES = ("scale", "velocity", "pressure", "aspect")
 # Columns that are text: the scene that was simulated, and why it was refused.
 WORDS = ("scene_digest", "note")
+# The number of the whole road among the scales.
+WHOLE = 0
+# Contact fraction beyond which all scales at once are not solved in finite strain, and why in words.
+_MOST_CONTACT = 0.05
+DEAR = f"over {_MOST_CONTACT:.0%} of the road is in contact, where all scales at once may take minutes in finite strain"
 
 
 def depth_measures(result: xr.Dataset) -> dict[str, float]:
@@ -50,8 +56,15 @@ def depth_measures(result: xr.Dataset) -> dict[str, float]:
 
 
 def observe(scene: Scene) -> dict[str, Any]:
-    """Simulate a scene and return what claims are judged by; a scene that is refused has its reason in ``note``."""
+    """Simulate a scene and return what claims are judged by; a scene that is refused has its reason in ``note``.
+
+    So has a whole road that would take minutes.
+    """
     row: dict[str, Any] = {name: getattr(scene, name) for name in AXES} | {"scene_digest": scene.digest}
+    if scene.scale == ALL:
+        row["scale"] = WHOLE
+        if scene.kinematics != "small" and estimated_fraction(scene) > _MOST_CONTACT:
+            return row | {"note": DEAR}
     try:
         result = simulate(scene)
     except (InvalidInput, NotConverged) as refusal:

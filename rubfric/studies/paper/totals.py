@@ -58,3 +58,23 @@ def total_note(totals: pd.DataFrame) -> str:
     refused = int(totals["refused"].astype(bool).sum())
     said = f"; at {refused} of {len(totals)} points it was refused, in whole or in part" if refused else ""
     return f"All scales at once have {low} to {high} times the friction of the sum{said}."
+
+
+def reading_note(totals: pd.DataFrame, whole: pd.DataFrame) -> str:
+    """Return in words what C9 rests on in another reading of the paper.
+
+    Parameters
+    ----------
+    totals : pandas.DataFrame
+        As from ``rubfric.results.totals.total_table``, of that reading.
+    whole : pandas.DataFrame
+        Observations of the whole road, with the reason in ``note`` where there is no friction.
+    """
+    missing = whole[whole["friction_coefficient"].isna()]
+    if len(missing) == len(whole):
+        why = missing["note"].iloc[0] if len(missing) else "the whole road was not simulated"
+        return f"C9 was not judged, since {why}."
+    left = f" It was judged at {len(whole) - len(missing)} of {len(whole)} speeds and loads"
+    reasons = missing["note"].value_counts().items()
+    why = "; ".join(f"at {count} {reason}" for reason, count in reasons)
+    return f"C9: {total_note(totals)}{left}: {why}." if why else f"C9: {total_note(totals)}"

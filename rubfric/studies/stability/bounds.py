@@ -7,6 +7,7 @@ frictionless; the first law.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,8 @@ import xarray as xr
 
 from rubfric.mechanics.march.result import Transient
 from rubfric.results.warnings import below_noise_warning
-from rubfric.road.sine import SineScale
+from rubfric.road.road import Road
+from rubfric.scene.scene import Scene
 
 # Share of the load, of the amplitude or of the energy turned over by which a bound may be missed: a solver's tolerance.
 _SLACK = 1e-4
@@ -67,10 +69,10 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
     routes = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
     power, lost, contact = (float(result[name]) for name in routes)
     floor, closure = float(result["friction_resolution"]), float(result["energy_closure"])
-    road = SineScale(result.attrs["amplitude"], result.attrs["wavenumber"])
-    slope = road.steepest_slope
+    road = Scene.from_parameters(json.loads(result.attrs["scene_parameters"])).road
+    slope, tallest = road.steepest_slope, float(road.waves.amplitudes.sum())
     pressure, gap = result["contact_pressure"].values, result["gap"].values
-    amplitude = max(road.amplitude, _FLAT * road.wavelength)
+    amplitude = max(tallest, _FLAT * road.wavelength)
     least_gap = _least_gap(result, road)
     carried = float(abs(pressure.mean() / result.attrs["pressure"] - 1.0))
     both = (pressure > _TOUCHING * pressure.max()) & (gap > _TOUCHING * amplitude)
@@ -94,7 +96,7 @@ def judge_steady(result: xr.Dataset, most_closure: float) -> Verdict:
     return Verdict((power, lost, contact), closure, floor, broken, remarks)
 
 
-def _least_gap(result: xr.Dataset, road: SineScale) -> float:
+def _least_gap(result: xr.Dataset, road: Road) -> float:
     """Return the smallest height of the deformed surface above the road at the output nodes, mm."""
     nodes = np.flatnonzero(result["mesh_node_y"].values == 0.0)
     place = result["mesh_node_x"].values[nodes] + result["displacement_x"].values[nodes]

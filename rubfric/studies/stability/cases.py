@@ -1,7 +1,7 @@
 """The matrix of numerical stability: scenes and marches at extreme inputs, as plain data.
 
 Every case differs from one base scene, near the paper's, in a few parameters. Planes of two parameters show where the
-limits are; seeded corners combine extremes of all parameters.
+limits are; roads of one to 64 waves go to slopes of three; seeded corners combine extremes of all parameters.
 """
 
 from __future__ import annotations
@@ -15,14 +15,18 @@ import numpy as np
 
 from rubfric import checks
 from rubfric.road.sine import SineScale
+from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 from rubfric.scene.procedure import Procedure
-from rubfric.scene.scene import Scene
+from rubfric.scene.scene import ALL, Scene
 
 MOTIONS = ("steady", "march")
 _CORNERS, _MARCHED_CORNERS, _SEED = 40, 12, 20190923
 # Speeds of the panel ``limits``, mm/s: two far slower than its branch relaxes, one near that, two far faster.
 LIMIT_SPEEDS = (1e-9, 1e-6, 1.0, 1e6, 1e9)
+# Roads of many waves: the most often that the finest fits into the coarsest, and how the amplitudes fall with the
+# wavenumber, as those of a self-affine profile of Hurst exponent 0.8.
+_FINEST, _FALL = 64, -1.3
 # Decades over which the branches of the rubber are spread, in the corners and in the panel of branches.
 _MOST_DECADES = 20.0
 
@@ -33,6 +37,7 @@ PANELS = {
     "poisson_pressure": "Poisson's ratio and pressure",
     "branches_share": "branches and relaxed share",
     "limits": "one branch, from far slower to far faster than it relaxes",
+    "waves": "roads of many waves: slow and fast, light and heavy",
     "march_speed_pressure": "marches over speed and pressure",
     "march_branches_share": "marches over branches and relaxed share",
     "corners": "corners of everything",
@@ -51,10 +56,12 @@ class Case:
         Steady sliding, or press and slide in time from an infinitely slow load.
     velocity, pressure, aspect : float
         mm/s, MPa, and height over width.
+    waves : int
+        Of the road, with random phases; 0 for a single scale.
     slope : float
-        Amplitude times wavenumber of the road.
+        Amplitude times wavenumber of the road; where it has waves, the root mean square of its slopes.
     wavelength : float
-        mm.
+        mm; of the coarsest wave.
     poissons_ratio : float
     branches : int
         Prony branches of equal shares.
@@ -71,6 +78,7 @@ class Case:
     velocity: float = 100.0
     pressure: float = 0.5
     aspect: float = 0.75
+    waves: int = 0
     slope: float = 0.5
     wavelength: float = 0.18
     poissons_ratio: float = 0.49
@@ -112,10 +120,9 @@ class Case:
         rubfric.errors.InvalidInput
             For what no scene may be.
         """
-        wavenumber = 2.0 * math.pi / self.wavelength
         return Scene(
-            scale=1,
-            road=SineScale(self.slope / wavenumber, wavenumber),
+            scale=ALL if self.waves else 1,
+            road=self._road(),
             velocity=self.velocity,
             pressure=self.pressure,
             aspect=self.aspect,
@@ -123,6 +130,19 @@ class Case:
             plane=self.plane,
             kinematics=self.kinematics,
         )
+
+    def _road(self) -> SineScale | WaveRoad:
+        wavenumber = 2.0 * math.pi / self.wavelength
+        if not self.waves:
+            return SineScale(self.slope / wavenumber, wavenumber)
+        generator = np.random.default_rng(_SEED + self.waves)
+        finer = generator.choice(np.arange(2, _FINEST + 1), self.waves - 1, replace=False)
+        numbers = np.append(1, np.sort(finer)).astype(float)
+        slopes = numbers ** (1.0 + _FALL)
+        slopes *= self.slope * math.sqrt(2.0) / np.linalg.norm(slopes)
+        phases = generator.uniform(0.0, 2.0 * math.pi, self.waves)
+        wavenumbers = numbers * wavenumber
+        return WaveRoad(tuple(slopes / wavenumbers), tuple(wavenumbers), tuple(phases))
 
     def procedure(self) -> Procedure:
         """Return how a march goes: over two wavelengths, in few steps, from an infinitely slow load."""
@@ -149,6 +169,9 @@ def cases() -> tuple[Case, ...]:
         *_plane("branches_share", [way | share for way in both], branches=(1, 6, 40), long_term_fraction=shares),
         *_plane("branches_share", [way | share for way in both], branches=(0,), long_term_fraction=(1.0,)),
         *_plane("limits", both, branches=(1,), velocity=LIMIT_SPEEDS, pressure=(0.05, 5.0)),
+        *_plane(
+            "waves", both, waves=(1, 2, 4, 16, 64), slope=(0.3, 1.0, 3.0), velocity=(0.01, 1e3), pressure=(0.2, 5.0)
+        ),
         *_plane("march_speed_pressure", both, "march", velocity=(1e-9, 1e-3, 1e3, 1e9), pressure=(1e-6, 1.0, 1e3)),
         *_plane(
             "march_branches_share",

@@ -27,8 +27,8 @@ from rubfric.studies.stability.bounds import Verdict, judge_march, judge_steady
 from rubfric.studies.stability.cases import Case
 
 OUTCOMES = ("converged", "refused", "failed")
-# Limits of a case: processor time and wall time, s, and memory, MiB.
-MOST_SECONDS, MOST_WALL, MOST_MEMORY = 120, 1800, 3072
+# Limits of a case: processor time, on roads of many waves too, and wall time, s, and memory, MiB.
+MOST_SECONDS, MOST_SECONDS_MANY, MOST_WALL, MOST_MEMORY = 120, 300, 1800, 3072
 # Limit of the address space, which counts reserved memory too: it only guards the machine.
 _MOST_SPACE = 3 * MOST_MEMORY
 _MIB = 2**20
@@ -100,7 +100,8 @@ def confined(case: Case) -> Trial:
     os.close(reading)
     _, status, used = os.wait4(child, 0)
     seconds, memory = used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0
-    found = Trial("failed", _ended_by(os.waitstatus_to_exitcode(status))) if answer is None else pickle.loads(answer)
+    code = os.waitstatus_to_exitcode(status)
+    found = Trial("failed", _ended_by(code, most_seconds(case))) if answer is None else pickle.loads(answer)
     if answer is not None and memory > MOST_MEMORY:
         found = Trial("failed", f"took more than {MOST_MEMORY} MiB of memory")
     return replace(found, seconds=seconds, memory=memory)
@@ -109,7 +110,8 @@ def confined(case: Case) -> Trial:
 def _answer(case: Case, writing: int) -> None:
     """Run the case under limits and write how it ended."""
     resource.setrlimit(resource.RLIMIT_AS, (_MOST_SPACE * _MIB, _MOST_SPACE * _MIB))
-    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 1))
+    most = most_seconds(case)
+    resource.setrlimit(resource.RLIMIT_CPU, (most, most + 1))
     found = attempt(case)
     with os.fdopen(writing, "wb") as stream:
         stream.write(pickle.dumps(found))
@@ -127,9 +129,14 @@ def _read_answer(reading: int, child: int) -> bytes | None:
     return None
 
 
-def _ended_by(code: int) -> str:
+def most_seconds(case: Case) -> int:
+    """Return the processor time that a case may take, s."""
+    return MOST_SECONDS_MANY if case.waves > 1 else MOST_SECONDS
+
+
+def _ended_by(code: int, seconds: int) -> str:
     if code == -signal.SIGXCPU:
-        return f"took more than {MOST_SECONDS} s of processor time"
+        return f"took more than {seconds} s of processor time"
     if code == -signal.SIGKILL:
         return f"took more than {MOST_WALL} s of wall time, or was killed"
     return f"the process died (exit code {code})"

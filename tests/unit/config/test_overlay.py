@@ -37,6 +37,16 @@ def test_key_given_twice_is_refused_with_both_lines(tmp_path: Path, content: str
         read_yaml(write(tmp_path, content))
 
 
+def test_aliases_that_stand_for_more_values_than_any_config_has_are_refused(tmp_path: Path) -> None:
+    kinds = ["[k, k]", "{k: 1, l: 1}"]
+    for first in kinds:
+        lines = [f"a0: &a0 {first}", *(f"a{n}: &a{n} [*a{n - 1}, *a{n - 1}]" for n in range(1, 40))]
+        with pytest.raises(InvalidInput, match=r"mine.yaml holds more than 100000 values once its aliases"):
+            read_yaml(write(tmp_path, "\n".join(lines)))
+    with pytest.raises(InvalidInput, match="more than 100000 values"):
+        read_yaml(write(tmp_path, "a: &x [*x]\n"))
+
+
 def test_merged_and_repeated_mappings_are_no_keys_given_twice(tmp_path: Path) -> None:
     content = "a: &x {b: 1, c: 2}\nd: &y {<<: *x, b: 3}\ne: {<<: *y, c: 4}\nf: [*x, *y]\n"
     x, y = {"b": 1, "c": 2}, {"b": 3, "c": 2}

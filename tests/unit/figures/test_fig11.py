@@ -48,6 +48,14 @@ def test_every_scene_has_a_strip_and_a_spot_to_scale(make_whole: Maker) -> None:
             assert box.height / box.width == pytest.approx(height / width, rel=1e-9)
 
 
+def test_first_of_random_roads_is_called_so(make_whole: Maker, words: Callable[[Figure], list[str]]) -> None:
+    def note(draws: int) -> str:
+        return " ".join(words(fig11.draw([make_whole()], draws))[-1].split())
+
+    assert "the first of 6 with random phases, and friction that on this road alone" in note(6)
+    assert "random" not in note(0)
+
+
 def test_spot_is_framed_and_holds_the_highest_crest(make_whole: Maker) -> None:
     result = make_whole()
     ((strip,), (spot,)) = panels(fig11.draw([result]))

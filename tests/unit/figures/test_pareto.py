@@ -17,7 +17,7 @@ from rubfric.figures import pareto, style
 Maker = Callable[..., pd.DataFrame]
 KNOBS = (
     *("preset", "mesh", "surface", "rows", "first_row", "element", "kinematics", "folding", "tolerance"),
-    *("steps", "wavelengths"),
+    *("steps", "wavelengths", "multiscale"),
 )
 
 

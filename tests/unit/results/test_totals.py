@@ -20,6 +20,7 @@ from rubfric.results.scales import WAYS
 from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.totals import total_table
 from rubfric.results.whole_road import WholeRoad
+from rubfric.road.waves import WaveRoad
 
 VELOCITIES, PRESSURES = (1.0, 100.0), (0.5, 5.0)
 AXES = ("scale", "velocity", "pressure", "aspect")
@@ -145,6 +146,11 @@ def test_cheapest_way_meets_the_accuracy(accuracy: float, way: str) -> None:
 )
 def test_whole_road_is_left_out_where_it_would_take_minutes(kinematics: str, pressure: float, way: str) -> None:
     assert road("auto", accuracy=0.01, kinematics=kinematics).cheapest(1.0, pressure) == way
+
+
+def test_road_of_few_waves_is_solved_at_once_also_where_much_of_it_is_in_contact() -> None:
+    few = WaveRoad((0.015, 0.003), (35.0, 210.0), (0.0, 0.0))
+    assert road("auto", accuracy=0.01, kinematics="finite", roads=(few,)).cheapest(1.0, 2.0) == "direct"
 
 
 def test_coupling_that_cannot_be_estimated_leaves_the_error_unknown(

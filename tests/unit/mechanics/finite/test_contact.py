@@ -22,6 +22,7 @@ from finite_fields import (
 from numpy.typing import NDArray
 
 from rubfric.errors import NotConverged
+from rubfric.mechanics.block import contact as block_contact
 from rubfric.mechanics.block.contact import Convolution, pivot
 from rubfric.mechanics.finite import contact as slidingcontact
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
@@ -269,6 +270,13 @@ def test_fields_turned_inside_out_are_refused() -> None:
 def test_contact_without_a_solution_carries_the_label(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = sliding(coarse("strain"))
     fields = flat(problem.finite, 0.1)
+    circulant, every = averaged(problem, fields), everywhere(problem.finite)
+    known = problem.correct(circulant, fields, load(0.1), every).contact
     monkeypatch.setattr(slidingcontact, "pivot", lambda *given: pivot(*given[:5], most_steps=1))
+    found = problem.correct(circulant, fields, load(0.1), every).contact  # from an even contact, step by step
+    assert found.iterations > 1
+    np.testing.assert_allclose(found.pressure, known.pressure, rtol=1e-8, atol=1e-9 * known.pressure.max())
+    monkeypatch.setattr(slidingcontact, "_MOST_PIVOTS_ALONG", 0)
+    monkeypatch.setattr(block_contact, "_STEPS_AT_ONCE", 1)
     with pytest.raises(NotConverged, match=r"^some scene: not converged after 1 steps, number of surface nodes"):
-        problem.correct(averaged(problem, fields), fields, load(0.1), everywhere(problem.finite))
+        problem.correct(circulant, fields, load(0.1), every)

@@ -126,8 +126,8 @@ def test_step_without_a_contact_leaves_the_state(stepper: Build, kind: Kind, mon
     def nowhere(*_: object) -> None:
         raise NotConverged("some scene", 3, 0.5, "number of surface nodes that violate contact")
 
-    for module in ("small.march", "finite.contact"):
-        monkeypatch.setattr(f"rubfric.mechanics.{module}.pivot", nowhere)
+    for name in ("small.march.pivot", "finite.contact.pivot", "finite.contact.follow"):
+        monkeypatch.setattr(f"rubfric.mechanics.{name}", nowhere)
     with pytest.raises(NotConverged):
         model.advance(1e-4, 0.07, PRESSURE)
     assert model.state is before

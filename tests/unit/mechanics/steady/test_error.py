@@ -100,6 +100,40 @@ def test_least_error_is_of_the_second_order_and_of_both_directions() -> None:
     assert alone(Resolution(16, 1.00001)) > 1e-3 * FRICTION
 
 
+@pytest.mark.parametrize(
+    ("waves", "spots", "nodes", "length"),
+    [
+        (1, 1, 8, 1.0 / 256.0),  # one wave: its period
+        (16, 4, 8, 16.0 / 256.0),  # spots of two nodes: the finest wave has sixteen columns
+        (16, 4, 128, 4.0 / 128.0),  # spots of 32 nodes hold more than one finest wave
+        (16, 1, 256, 1.0 / 256.0),  # full contact
+    ],
+)
+def test_least_error_counts_the_columns_of_the_finest_wave_or_of_a_spot(
+    waves: int, spots: int, nodes: int, length: float
+) -> None:
+    same = Friction(FRICTION, FRICTION, 0.0)
+    found = replace(on_mesh(FINE, same), waves=waves, spots=spots, contact_nodes=nodes)
+    least = (2.0 * math.pi * length + FINE.growth - 1.0) ** 2 / 16.0 * FRICTION
+    assert discretisation_error([on_mesh(COARSE, same), found]) == pytest.approx(least, rel=1e-12)
+
+
+def test_edges_of_spots_count_where_no_mesh_has_fewer_columns() -> None:
+    same = Friction(FRICTION, FRICTION, 0.0)
+    spots = {"waves": 16, "spots": 4, "contact_nodes": 16}
+    fine = replace(on_mesh(FINE, same), **spots)
+    rows_only = replace(on_mesh(Resolution(FINE.columns, COARSE.growth), same), **spots)
+    edges = 3.0 * 4.0**-1.5 / 2.0 * FRICTION
+    assert discretisation_error([rows_only, fine]) == pytest.approx(edges, rel=1e-12)
+    # Twice the nodes in each spot.
+    more = replace(fine, contact_nodes=32)
+    assert discretisation_error([rows_only, more]) == pytest.approx(edges / 2.0**1.5, rel=1e-12)
+    # A mesh of half the columns has seen what they change; one wave needs none.
+    assert discretisation_error([replace(on_mesh(COARSE, same), **spots), fine]) < 0.2 * edges
+    alone = [on_mesh(Resolution(FINE.columns, COARSE.growth), same), on_mesh(FINE, same)]
+    assert discretisation_error(alone) == pytest.approx(floor(FINE), rel=1e-12)
+
+
 def test_least_error_is_a_share_of_friction() -> None:
     tenth = Friction(0.1 * FRICTION, 0.1 * FRICTION, 0.0)
     assert discretisation_error([on_mesh(FINE, tenth)]) == pytest.approx(0.1 * floor(FINE), rel=1e-12)

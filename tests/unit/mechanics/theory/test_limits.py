@@ -56,17 +56,17 @@ def test_nodes_near_the_crest_are_where_the_road_is_highest(fraction: float) -> 
 def test_the_pressure_that_a_refusal_names_is_allowed_and_a_lighter_one_is_not() -> None:
     with pytest.raises(InvalidInput, match="do this instead") as refused:
         require_resolvable(at(1e-9), 4096, "do this instead")
-    named = re.search(r"at least (\S+) MPa", str(refused.value))
+    named = re.search(r"at least about (\S+) MPa", str(refused.value))
     assert named is not None
-    require_resolvable(at(1.05 * float(named[1])), 4096, "")
+    require_resolvable(at(float(named[1])), 4096, "")
     with pytest.raises(InvalidInput, match="fewer than 8 surface nodes"):
-        require_resolvable(at(0.9 * float(named[1])), 4096, "")
+        require_resolvable(at(0.1 * float(named[1])), 4096, "")
 
 
 def test_columns_that_a_refused_march_is_told_to_take_are_enough() -> None:
     with pytest.raises(InvalidInput, match=r"procedure\.columns is 32") as refused:
         require_columns(at(1e-5), 32, 2.0)
-    named = re.search(r"at least (\d+)", str(refused.value))
+    named = re.search(r"at least about (\d+)", str(refused.value))
     assert named is not None
     require_columns(at(1e-5), int(named[1]), 2.0)
 
@@ -100,7 +100,7 @@ def test_the_pressure_that_a_flattened_block_is_told_of_is_allowed_and_a_heavier
         require_height(at(1e3, plane=plane))
     named = re.search(r"at most (\S+) MPa", str(refused.value))
     assert named is not None
-    require_height(at(0.99 * float(named[1]), plane=plane))
+    require_height(at(1.0 * float(named[1]), plane=plane))
     with pytest.raises(InvalidInput, match="outside the model's range"):
         require_height(at(1.01 * float(named[1]), plane=plane))
 

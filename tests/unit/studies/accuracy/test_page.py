@@ -151,3 +151,22 @@ def test_rung_that_every_scene_refused_has_dashes_for_numbers() -> None:
     assert "From 64 to 64 " in steps  # what was solved
     assert "No scene could be solved." in slid
     assert "nan" not in steps + slid
+
+
+def test_ways_to_the_total_have_a_row_for_each_scene_of_the_whole_road() -> None:
+    rows = [
+        {"scene": "small_all", "knob": "multiscale", "rung": way, "velocity": 100.0, "pressure": 5.0, "plane": "strain"}
+        | {"kinematics": "small", "friction_coefficient": 0.66, "reference": 0.65, "reference_error": 0.05}
+        | {"error": error, "estimate": 0.6, "cost": cost, "seconds": 0.25 * cost, "memory_MB": 120.0}
+        for way, error, cost in (("sum", 0.5556, 2.437), ("cascade", np.nan, np.nan), ("direct", 0.0062, 1.0))
+    ]
+    page = accuracy_page(pd.concat([make_ladder(), pd.DataFrame(rows)]), make_calibration(), PRESETS)
+    rungs, scenes = tables(page.partition("### `multiscale`")[2])
+    assert [row[0] for row in rungs[1:]] == ["sum", "cascade", "direct"]
+    assert scenes[0][-3:] == ["sum", "cascade", "direct"]
+    assert scenes[1] == ["small", "strain", "100", "5", "0.25", "56 % (2.4)", "- (-)", "0.62 % (1)"]
+    # What is said of the scenes of single scales is theirs alone.
+    assert (
+        page.partition("### `mesh`")[0]
+        == accuracy_page(make_ladder(), make_calibration(), PRESETS).partition("### `mesh`")[0]
+    )

@@ -154,3 +154,13 @@ def test_preset_that_is_not_the_chosen_one_is_told(name: str) -> None:
         assert presets_that_differ(table, presets | {name: replace(presets[name], **change)}) == [name]
     # What a preset does not set does not matter.
     assert presets_that_differ(table, presets | {name: replace(presets[name], refinements=7)}) == []
+
+
+def test_costs_of_ways_to_the_total_are_over_that_of_all_waves_at_once() -> None:
+    ways = [
+        rung("multiscale", way, [0.1] * 3, seconds, plane="strain") for way, seconds in (("sum", 2.0), ("direct", 4.0))
+    ]
+    whole = pd.DataFrame([row for rows in ways for row in rows]).assign(scene=lambda table: "whole " + table["scene"])
+    found = with_costs(pd.concat([starts(), whole], ignore_index=True), PRESET_ACCURACIES)
+    costs = found[found["knob"] == "multiscale"].groupby("rung")["cost"].agg(list)
+    assert (costs["sum"], costs["direct"]) == ([0.5] * 3, [1.0] * 3)

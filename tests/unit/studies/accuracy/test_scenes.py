@@ -9,9 +9,10 @@ import pytest
 
 import rubfric
 from rubfric.config.campaign import Campaign
+from rubfric.mechanics.theory.limits import estimated_fraction
 from rubfric.road.road import finest_waves
 from rubfric.scene.scene import ALL, Scene
-from rubfric.studies.accuracy.scenes import SETS, batches, drawn_scenes, fixed_scenes, whole_scenes
+from rubfric.studies.accuracy.scenes import SETS, batches, drawn_scenes, finite_scenes, fixed_scenes, whole_scenes
 
 CONFIG = Path(rubfric.__file__).resolve().parent.parent / "config" / "config.yaml"
 COUNT, SEED = 60, 7
@@ -149,3 +150,16 @@ def test_batches_hold_every_name_once_in_order(size: int) -> None:
     assert [name for group in groups for name in group] == names
     assert all(len(group) == size for group in groups[:-1])
     assert 1 <= len(groups[-1]) <= size
+
+
+def test_whole_roads_in_finite_strain_are_light_and_fast_with_random_phases(campaign: Campaign) -> None:
+    drawn = finite_scenes(campaign, COUNT, SEED)
+    assert drawn == finite_scenes(campaign, COUNT, SEED)
+    assert list(drawn) == [f"finite_{number}" for number in range(COUNT)]
+    assert {(scene.scale, scene.kinematics, scene.plane) for scene in drawn.values()} == {
+        (ALL, "finite", "stress"),
+        (ALL, "finite", "strain"),
+    }
+    assert len({scene.road.phases for scene in drawn.values()}) == COUNT
+    assert all(scene.velocity >= 50.0 and scene.pressure <= 0.6 for scene in drawn.values())
+    assert max(estimated_fraction(scene) for scene in drawn.values()) < 0.1

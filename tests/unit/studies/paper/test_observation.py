@@ -9,7 +9,18 @@ import pytest
 import xarray as xr
 
 import rubfric
-from rubfric.studies.paper.observation import DEPTH, SCALARS, among, depth_measures, observe, over_axes, refusals, table
+from rubfric.studies.paper.observation import (
+    DEAR,
+    DEPTH,
+    SCALARS,
+    WHOLE,
+    among,
+    depth_measures,
+    observe,
+    over_axes,
+    refusals,
+    table,
+)
 
 CAMPAIGN = rubfric.load(Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml").reading(
     "instantaneous_moduli"
@@ -63,3 +74,12 @@ def test_refused_scene_keeps_its_place_and_its_reason() -> None:
 def test_observations_are_chosen_by_their_axes() -> None:
     rows = table({"scale": scale, "velocity": velocity} for scale in (1, 2) for velocity in (1.0, 10.0))
     assert list(among(rows, {"scale": [2], "velocity": [10, 100]})) == [False, False, False, True]
+
+
+def test_whole_road_is_observed_where_it_is_cheap() -> None:
+    row = observe(CAMPAIGN.scene("all", 1000, 5))
+    assert (row["scale"], row["note"]) == (WHOLE, "")
+    assert 0.0 < row["friction_coefficient_error"] < 0.1 * row["friction_coefficient"]
+    dear = observe(CAMPAIGN.scene("all", 10, 5, kinematics="finite"))
+    assert dear["note"] == DEAR
+    assert "friction_coefficient" not in dear

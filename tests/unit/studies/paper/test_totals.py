@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from rubfric.studies.paper.claims import Evidence
-from rubfric.studies.paper.totals import total_evidence, total_note
+from rubfric.studies.paper.totals import reading_note, total_evidence, total_note
 
 SPEEDS = [1.0, 10.0, 100.0]
 SUM = np.array([0.1, 0.8, 0.4])
@@ -78,3 +78,19 @@ def test_note_has_the_range_and_its_places() -> None:
         "All scales at once have 0.50 (10 mm/s, 5 MPa) to 1.25 (100 mm/s, 5 MPa) times the friction of the sum."
     )
     assert total_note(totals(direct=(np.nan,) * 3)) == "The whole road was not simulated."
+
+
+def test_reading_says_where_and_why_the_whole_road_was_not_judged() -> None:
+    def whole(*friction: float) -> pd.DataFrame:
+        return pd.DataFrame(
+            {"friction_coefficient": friction, "note": ["" if x > 0.0 else "it is dear" for x in friction]}
+        )
+
+    ratios = (
+        "C9: All scales at once have 0.50 (10 mm/s, 5 MPa) to 1.25 (100 mm/s, 5 MPa) times the friction of the sum."
+    )
+    assert reading_note(totals(), whole(0.1, 0.4, 0.5)) == ratios
+    left = " It was judged at 2 of 3 speeds and loads: at 1 it is dear."
+    assert reading_note(totals((np.nan, 0.4, 0.5)), whole(np.nan, 0.4, 0.5)) == ratios + left
+    assert reading_note(totals((np.nan,) * 3), whole(np.nan, np.nan)) == "C9 was not judged, since it is dear."
+    assert reading_note(totals((np.nan,) * 3), whole()) == "C9 was not judged, since the whole road was not simulated."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from rubfric.errors import InvalidInput
@@ -27,7 +28,8 @@ def test_matrix_is_the_same_every_time() -> None:
         ("velocity", 1e-9, 1e9),
         ("pressure", 1e-6, 1e3),
         ("aspect", 0.02, 20.0),
-        ("slope", 0.0, 2.0),
+        ("slope", 0.0, 3.0),
+        ("waves", 0, 64),
         ("wavelength", 1e-6, 1e3),
         ("poissons_ratio", -0.9, 0.4999),
         ("branches", 0, 40),
@@ -74,3 +76,23 @@ def test_every_scene_of_the_matrix_is_legal() -> None:
 def test_what_no_scene_may_be_is_refused() -> None:
     with pytest.raises(InvalidInput, match="poissons_ratio"):
         Case("corners", poissons_ratio=0.5).scene()
+
+
+@pytest.mark.parametrize("waves", [1, 2, 4, 16, 64])
+def test_roads_of_many_waves_are_rough_as_given_and_their_phases_are_random(waves: int) -> None:
+    case = Case("waves", waves=waves, slope=3.0, wavelength=0.5)
+    road = case.scene().road
+    assert case.scene() == case.scene()
+    x = road.period / 4096 * np.arange(4096)
+    assert np.sqrt(np.mean(road.slope(x) ** 2)) == pytest.approx(3.0, rel=1e-9)
+    assert road.wavelength == pytest.approx(0.5, rel=1e-9)
+    assert len(np.unique(road.waves.wavenumbers)) == len(np.unique(road.waves.phases)) == waves
+
+
+def test_roads_of_many_waves_are_tried_in_every_way() -> None:
+    own = [case for case in MATRIX if case.panel == "waves"]
+    axes = ("waves", "slope", "velocity", "pressure", "plane", "kinematics")
+    seen = {name: {getattr(case, name) for case in own} for name in axes}
+    assert seen["waves"] == {1, 2, 4, 16, 64}
+    assert len(own) == math.prod(len(values) for values in seen.values())
+    assert [len(seen[name]) for name in axes[2:]] == [2, 2, 2, 2]
