@@ -17,7 +17,7 @@ from rubfric.mechanics.finite.block import Fields, Stiffness
 from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.krylov import Krylov, Operator
-from rubfric.mechanics.finite.linearised import Linearised, scaling
+from rubfric.mechanics.finite.linearised import EVEN, Linearised, scaling
 from rubfric.road.road import finest_waves
 
 MOST_KRYLOV = 60
@@ -69,6 +69,7 @@ def newton_direction(
     load: Load,
     touching: Flags,
     forcing: float,
+    scaled: bool = True,
 ) -> Direction:
     """Solve the linearised contact problem.
 
@@ -86,6 +87,8 @@ def newton_direction(
         First guess of the contact nodes.
     forcing : float
         Share of the residual to which GMRES solves.
+    scaled : bool
+        Whether local stiffness scales the preconditioner, which pays where GMRES takes many iterations.
 
     Raises
     ------
@@ -95,7 +98,7 @@ def newton_direction(
     vector: Real | None = None
     applied = most = passes = 0
     precision = np.float32 if forcing >= _SINGLE else np.float64
-    scale = scaling(problem.finite, stiffness, finest_waves(load.road))
+    scale = scaling(problem.finite, stiffness, finest_waves(load.road)) if scaled else EVEN
     best, patience, few = len(touching) + 1, _PATIENCE, len(touching) // _COLUMNS_PER_FEW
     while True:
         passes += 1

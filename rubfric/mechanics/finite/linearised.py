@@ -17,6 +17,8 @@ from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, S
 
 # The local stiffness counts as no less than this share of its average.
 _SOFTEST = 0.05
+# The scale that leaves the preconditioner to T, for directions that are easily found.
+EVEN = Fields(np.ones((1, 1)), np.ones((1, 1)), np.ones((1, 1)))
 
 
 def scaling(finite: FiniteBlock, stiffness: Stiffness, harmonic: int) -> Fields:
@@ -70,7 +72,7 @@ class Linearised:
     touching : ndarray of bool, shape (columns,)
         The contact nodes.
     scale : Fields
-        From ``scaling``.
+        From ``scaling``, or ``EVEN``.
 
     Raises
     ------
@@ -99,7 +101,7 @@ class Linearised:
         count = len(self._inside)
         saddle = np.ones((count + 1, count + 1))
         surface = SlopedSurface(circulant.compliance, correction.slope, width)
-        softness = scale.displacement[0, self._inside]
+        softness = np.broadcast_to(scale.displacement[0], len(touching))[self._inside]
         saddle[:count, :count] = surface.matrix(self._inside)
         saddle[:count, :count] *= softness[:, None] * softness
         saddle[count, count] = 0.0
@@ -108,6 +110,8 @@ class Linearised:
     def rest(self) -> tuple[Fields, Real]:
         """Return what the preconditioner makes of unbalanced forces, and the pressures of the road, MPa, with it."""
         known, load = self._correction, self._load
+        if self._scale is EVEN and np.array_equal(known.contact.touching, self._touching):
+            return known.step, known.contact.pressure
         forces = -self._problem.finite.forces(known.state.stress[:4])
         forces[1, -1] -= load.pressure * self._width
         loads = forces, -known.state.stress[4:], -known.state.volume_excess

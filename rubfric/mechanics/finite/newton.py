@@ -17,6 +17,7 @@ from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact
 from rubfric.mechanics.finite.direction import MOST_KRYLOV, Direction, newton_direction
 from rubfric.mechanics.finite.law import Inverted
+from rubfric.road.road import finest_waves
 
 _MOST_STEPS = 16
 # A direction that took more Krylov iterations is worth a new average of the tangent, by default.
@@ -26,6 +27,8 @@ _SHORTEST_STEP = 1.0 / 16.0
 _DECREASE = 0.1
 # So many steps must bring the residual below this share of what it was.
 _WATCHED, _SLOWEST = 3, 0.5
+# After a direction of more Krylov iterations, and far off on many waves, local stiffness scales the preconditioner.
+_HARD = 10
 # Far from a solution, where GMRES does not get as far as it should, its step must bring the residual below this share.
 _EXHAUSTED = 0.5
 # A step may end above the last residual, as long as it ends below the larger of so many of them.
@@ -150,7 +153,7 @@ def _iterate(
     residuals: list[float],
 ) -> Solved:
     """Do what ``newton`` does, and keep the sizes of u - T(u) in ``residuals``."""
-    fields, correction, krylov = start, None, 0
+    fields, correction, krylov, hard = start, None, 0, False
     while True:
         steps = max(0, len(residuals) - 1)
         try:
@@ -169,9 +172,11 @@ def _iterate(
         if len(residuals) > _WATCHED and size > _SLOWEST * residuals[-1 - _WATCHED]:
             raise Stalled("the residual falls too slowly", len(residuals) - 1, krylov, size)
         stiffness = problem.finite.stiffness(fields, correction.state)
+        hard = hard or (size > _FAR and finest_waves(load.road) > 1)
         found = newton_direction(
-            problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals)
+            problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals), hard
         )
+        hard = hard or found.most > _HARD
         krylov += found.krylov
         ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))
         if ahead is None:
