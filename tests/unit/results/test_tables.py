@@ -149,7 +149,11 @@ def test_unreadable_table_is_named(tmp_path: Path, content: bytes | None) -> Non
     source = tmp_path / "broken.csv"
     if content is not None:
         source.write_bytes(content)
-    says = r"broken\.csv is missing: run again" if content is None else r"(is no|cannot be) read.*; delete it and run again$"
+    says = (
+        r"broken\.csv is missing: run again"
+        if content is None
+        else r"(is no|cannot be) read.*; delete it and run again$"
+    )
     with pytest.raises(BrokenResult, match=says):
         read_table(source, [], signed=False)
 
