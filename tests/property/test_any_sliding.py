@@ -199,6 +199,6 @@ def test_extreme_scene_has_a_friction_or_a_reason_why_not(scene: Scene) -> None:
     refusals = (
         f"{scene.name}: not converged after ",
         f"pressure of {scene.name} is {scene.pressure:g} MPa, but must ",
-        f"rubbers.{scene.material.name}.poissons_ratio is {scene.material.poissons_ratio!r}, but must be at most 0.499999995",
+        f"rubbers.{scene.material.name}.poissons_ratio is {scene.material.poissons_ratio!r}, but must be at most ",
     )
     assert reason == "" or reason.startswith(refusals)
