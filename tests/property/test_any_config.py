@@ -187,6 +187,7 @@ def unnamed(config: Tree, read: Callable[[Tree], Any]) -> list[tuple[Way, Any, s
     return found
 
 
+@pytest.mark.thorough
 def test_anything_wrong_in_any_place_of_the_shipped_config_is_refused_by_name() -> None:
     assert len([*cases(SHIPPED)]) > 1000
     assert unnamed(SHIPPED, Campaign.from_config) == []

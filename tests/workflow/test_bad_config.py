@@ -35,13 +35,15 @@ def assert_refused(fresh: Project, done: subprocess.CompletedProcess[str], sente
             "grid: {velocities: [1e-3, 1]}",
             "grid.velocities[0] is the text '1e-3', but must be a number (YAML reads it as text; write 1.0e-3)",
         ),
-        (
+        pytest.param(
             "grid: {velocity: [1]}",
             "grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect (did you mean velocities?)",
+            marks=pytest.mark.thorough,
         ),
-        (
+        pytest.param(
             "rubbers: {gummi_weiß: {youngs_modulus: 1, poissons_ratio: 0, shear_fractions: [], relaxation_times: []}}",
             "name in rubbers is 'gummi_weiß', but must be a word of letters, digits, '-' and '_'",
+            marks=pytest.mark.thorough,
         ),
         (
             "grid:\n  pressures: [1]\n  aspect: 1\n  pressures: [2]\n",

@@ -52,6 +52,7 @@ def test_grid_alone_is_planned_and_the_run_says_what_it_understood(mine: Project
     assert re.search(r"Would be made: 4 scenes, .*; in about \d+ s\n", plan.text)
 
 
+@pytest.mark.thorough
 def test_slips_and_all_faults_stop_it_before_any_job(mine: Project) -> None:
     (mine.root / "pascal.yaml").write_text("rubbers: {tread: {youngs_modulus: 3.0e+6}}")
     done = Project(mine.root, (*mine.options, "pascal.yaml")).snakemake("-n")

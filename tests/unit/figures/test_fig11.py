@@ -118,6 +118,7 @@ def test_only_refusals_still_show_the_road(make_whole: Maker, tmp_path: Path) ->
     style.save(fig11.draw([make_whole(refusal="no solution")]), tmp_path / "fig11.pdf")
 
 
+@pytest.mark.thorough
 def test_twelve_scenes_fit_on_the_page(
     make_whole: Maker, overlaps: Callable[..., list[tuple[str, str]]], tmp_path: Path
 ) -> None:

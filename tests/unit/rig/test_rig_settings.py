@@ -9,8 +9,8 @@ import pytest
 from rubfric.errors import InvalidInput
 from rubfric.rig.settings import Bearing, Settings, Tare, Windows, read_settings
 
-# A list of ten lists of ten lists of ..., in some 300 bytes
-_NAMES = zip("abcdefgh", "bcdefghi", strict=True)
+# A list of ten lists of ten lists of ..., in some 200 bytes
+_NAMES = zip("abc", "bcd", strict=True)
 BOMB = "&a [1,1,1,1,1,1,1,1,1,1]" + "".join(f", &{to} [{','.join([f'*{of}'] * 10)}]" for of, to in _NAMES)
 GOOD = """
 columns: {time: Zeit, normal: Fz, traction: Fx, displacement: Weg}
