@@ -86,7 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     march = commands.add_parser(
         "march",
         help="press one block and slide it step by step until its friction has settled",
-        description="Press a rubber block onto one scale of the road and slide it, step by step in time.",
+        description="Press a rubber block onto a scale of the road, or all at once, and slide it step by step in time.",
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

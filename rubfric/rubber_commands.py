@@ -14,6 +14,7 @@ from rubfric import checks
 from rubfric.config import campaign as campaigns
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, read_yaml
+from rubfric.decks.deck import UNITS
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
 from rubfric.rubber.material import Material
@@ -39,10 +40,12 @@ examples:
   rubfric rubber read deck.inp --units MPa,s
   rubfric rubber read material.k --units GPa,ms --material 3 --name tread --output tread.yaml
   rubfric rubber write --config tread.yaml --rubber tread --code ansys --output tread.mac
+
+docs/rubber.md says what is read and written.
 """
 _COLUMNS = ("columns", "units", "modulus", "decimal", "separator")
 _CODES = ("abaqus", "ansys", "lsdyna")
-# The first line of what these commands write: such a file may be written anew.
+# The first line of a config that these commands write, as UNITS is in that of a deck: such a file may be written anew.
 _OURS = "# Written by rubfric rubber"
 
 
@@ -55,11 +58,21 @@ def add_rubber(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> No
     configs : callable
         Returns the configs to lay over one another, given those of ``--config``.
     """
-    rubber = commands.add_parser("rubber", help="fit a rubber to measured moduli, read or write one as a deck")
+    rubber = commands.add_parser(
+        "rubber",
+        help="fit a rubber to measured moduli, read or write one as a deck",
+        description="Rubbers from measured moduli, and from and as finite-element decks.",
+    )
     own = rubber.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_fit(own)
     raw = argparse.RawDescriptionHelpFormatter
-    read = own.add_parser("read", help="read a rubber from a finite-element deck", epilog=_READ, formatter_class=raw)
+    read = own.add_parser(
+        "read",
+        help="read a rubber from a finite-element deck",
+        description="Read a rubber from a finite-element deck, as a config to lay over others.",
+        epilog=_READ,
+        formatter_class=raw,
+    )
     read.add_argument("deck", metavar="DECK", help="deck of Abaqus, Ansys or LS-DYNA with a Prony series")
     read.add_argument("--code", choices=_CODES, help="the deck's code (default: found out)")
     read.add_argument("--units", metavar="STRESS,TIME", help="the deck's units, MPa,s say; lengths are mm")
@@ -73,7 +86,13 @@ def add_rubber(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> No
         read.add_argument(f"--{name}", type=float, metavar="X", help=what)
     read.add_argument("--output", "-o", type=Path, metavar="FILE", help="write the entry to this YAML file")
     read.set_defaults(run=_read)
-    write = own.add_parser("write", help="write a rubber as a finite-element deck", epilog=_READ, formatter_class=raw)
+    write = own.add_parser(
+        "write",
+        help="write a rubber as a finite-element deck",
+        description="Write one of the config's rubbers as a finite-element deck, in MPa, mm and s.",
+        epilog=_READ,
+        formatter_class=raw,
+    )
     write.add_argument("--code", choices=_CODES, required=True, help="the deck's code")
     write.add_argument("--rubber", metavar="NAME", help="one of the config's rubbers (default: the one chosen there)")
     write.add_argument(
@@ -215,10 +234,11 @@ def _check_output(output: Path) -> None:
     if output.is_dir():
         raise InvalidInput(f"--output is the folder {output}, but must be a file")
     if output.suffix in (".html", ".htm"):
-        raise InvalidInput(f"--output is {output}, but must be a YAML file; the page is written beside it")
+        raise InvalidInput(f"--output is {output}, but must be the file of the rubber; a fit writes its page beside it")
     if output.exists():
         with output.open(encoding="utf-8", errors="replace") as stream:
-            if not stream.readline().startswith(_OURS):
+            first = stream.readline()
+            if not first.startswith(_OURS) and UNITS not in first:
                 raise InvalidInput(f"{output} exists and was not written by this command: name another with --output")
 
 

@@ -91,7 +91,7 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         node = field.metadata[0].schema()
         unit = node.get("unit") or node.get("items", {}).get("unit") or _NOTHING
         optional = "" if field.is_required() else "; may be left out"
-        optional += f", for {_otherwise(field.default)}" if optional and field.default is not None else ""
+        optional += f", for {_otherwise(field.default, unit)}" if optional and field.default is not None else ""
         defaults = "; ".join(f"{label}: {_default(value)}".removeprefix(": ") for label, value in inner.items())
         missing = "the preset's" if at == "numerics." else _NOTHING
         yield f"`{at}{name}`", field.metadata[0].about, unit, _allowed(node) + optional, defaults or missing
@@ -110,7 +110,8 @@ def _about(name: str) -> str:
     field = Config.model_fields[name]
     if field.metadata:
         return str(field.metadata[0].about)
-    off = "" if field.is_required() else f" `{name}: null`, or to leave it out, is to do without."
+    what = "makes it follow from the grid" if name == "figures" else "switches it off"
+    off = "" if field.is_required() else f" `{name}: null` {what}; so does a campaign of your own that leaves it out."
     return f"{_given(field.annotation).__doc__}{off}"
 
 
@@ -119,9 +120,9 @@ def _given(annotation: Any) -> Any:
     return get_args(annotation)[0] if type(None) in get_args(annotation) else annotation
 
 
-def _otherwise(value: Any) -> str:
-    """Return a default; numbers and lists that follow from the grid are zero and empty there."""
-    if value == () or (value == 0.0 and isinstance(value, float)):
+def _otherwise(value: Any, unit: str) -> str:
+    """Return a default; speeds and pressures that follow from the grid are zero or empty there."""
+    if not value and unit in ("mm/s", "MPa"):
         return "some of the grid's"
     return _default(list(value) if isinstance(value, tuple) else value)
 

@@ -119,19 +119,41 @@ def _on_grid(grid: Grid, figures: FigureChoice) -> None:
 
 
 def spread(values: Sequence[float], most: int) -> tuple[float, ...]:
-    """Return at most so many of some values, evenly from the first to the last."""
+    """Return at most so many of some values, evenly from the first to the last.
+
+    Parameters
+    ----------
+    values : sequence of float
+    most : int
+    """
     last = len(values) - 1
     places = {round(last * place / max(most - 1, 1)) for place in range(most)}
     return tuple(values[place] for place in sorted(places))
 
 
 def study_of(given: AspectStudy | None, grid: Grid) -> AspectStudy | None:
-    """Return the study of aspects, at the lowest and highest pressure of the grid where it has none."""
+    """Return the study of aspects, at the lowest and highest pressure of the grid where it has none.
+
+    Parameters
+    ----------
+    given : AspectStudy or None
+        None where there is none.
+    grid : Grid
+        From which missing speeds and pressures are taken.
+    """
     return given and given.model_copy(update={"pressures": given.pressures or spread(grid.pressures, 2)})
 
 
 def march_of(given: TransientChoice | None, grid: Grid) -> TransientChoice | None:
-    """Return what is marched, at four speeds of the grid and its middle pressure where it has none."""
+    """Return what is marched, at four speeds of the grid and its middle pressure where it has none.
+
+    Parameters
+    ----------
+    given : TransientChoice or None
+        None where there is none.
+    grid : Grid
+        From which missing speeds and pressures are taken.
+    """
     middle = grid.pressures[(len(grid.pressures) - 1) // 2]
     return given and given.model_copy(
         update={"velocities": given.velocities or spread(grid.velocities, 4), "pressure": given.pressure or middle}
@@ -139,7 +161,15 @@ def march_of(given: TransientChoice | None, grid: Grid) -> TransientChoice | Non
 
 
 def figures_of(given: FigureChoice | None, grid: Grid) -> FigureChoice:
-    """Return what the figures show: the highest pressure, fields at four speeds and three pressures by default."""
+    """Return what the figures show: the highest pressure, fields at four speeds and three pressures by default.
+
+    Parameters
+    ----------
+    given : FigureChoice or None
+        None for the default of everything.
+    grid : Grid
+        From which missing speeds and pressures are taken.
+    """
     chosen = given or FigureChoice()
     fields = Fields(
         scale=chosen.fields.scale,
@@ -150,7 +180,15 @@ def figures_of(given: FigureChoice | None, grid: Grid) -> FigureChoice:
 
 
 def rig_of(given: RigChoice | None, grid: Grid) -> RigChoice | None:
-    """Return the test rig, whose figure shows three pressures and four speeds of the grid by default."""
+    """Return the test rig, whose figure shows three pressures and four speeds of the grid by default.
+
+    Parameters
+    ----------
+    given : RigChoice or None
+        None where there is none.
+    grid : Grid
+        From which missing speeds and pressures are taken.
+    """
     return given and given.model_copy(
         update={
             "pressures": given.pressures or spread(grid.pressures, 3),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rubfric.decks.deck import UNITS, Deck, Elastic, number
+from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, number
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import Shift, ShiftedRubber
@@ -46,12 +46,7 @@ def read(source: str, text: str, material: str | None, stress: float, time: floa
     found = {name: blocks for name, blocks in _materials(source, text).items() if _block(blocks, "VISCOELASTIC")}
     if not found:
         raise InvalidInput(f"{source} has no material with *VISCOELASTIC")
-    names = ", ".join(found)
-    if material is None and len(found) > 1:
-        raise InvalidInput(f"{source} has {len(found)} viscoelastic materials, {names}: name one with --material")
-    if material is not None and material.upper() not in {name.upper() for name in found}:
-        raise InvalidInput(f"{source} has no viscoelastic material {material}; it has {names}")
-    name = next(name for name in found if material is None or name.upper() == material.upper())
+    name = chosen(source, found, material)
     blocks = found[name]
     terms = _terms(source, blocks)
     density = _block(blocks, "DENSITY")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from rubfric.decks.deck import UNITS, Deck, Elastic, instantaneous, number
+from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, instantaneous, number
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber
@@ -44,12 +44,7 @@ def read(source: str, text: str, material: str | None, stress: float, time: floa
     found = {name: each for name, each in materials.items() if "PRON SHEA" in each.tables}
     if not found:
         raise InvalidInput(f"{source} has no material with TB,PRONY and shear terms")
-    names = ", ".join(found)
-    if material is None and len(found) > 1:
-        raise InvalidInput(f"{source} has {len(found)} viscoelastic materials, {names}: name one with --material")
-    if material is not None and material not in found:
-        raise InvalidInput(f"{source} has no viscoelastic material {material}; it has {names}")
-    name = material or next(iter(found))
+    name = chosen(source, found, material)
     own = found[name]
     shear, bulk = _pairs(source, own.tables["PRON SHEA"]), _pairs(source, own.tables.get("PRON BULK", {}))
     times = list(dict.fromkeys([at for _, at in shear] + [at for _, at in bulk]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field
 
 from rubfric.errors import InvalidInput
@@ -81,6 +82,32 @@ class Deck:
     density: float | None = None
     shift: Shift | None = None
     notes: tuple[str, ...] = field(default=())
+
+
+def chosen(source: str, found: Collection[str], material: str | None) -> str:
+    """Return the name of the material to read.
+
+    Parameters
+    ----------
+    source : str
+        The deck's name, for messages.
+    found : collection of str
+        Names of the viscoelastic materials in it, at least one.
+    material : str, optional
+        The one that the user names, in capitals or not; it may be left out where there is only one.
+
+    Raises
+    ------
+    InvalidInput
+        Where there are several, or none of that name.
+    """
+    names = ", ".join(found)
+    if material is None and len(found) > 1:
+        raise InvalidInput(f"{source} has {len(found)} viscoelastic materials, {names}: name one with --material")
+    name = next((name for name in found if material is None or name.upper() == material.upper()), None)
+    if name is None:
+        raise InvalidInput(f"{source} has no viscoelastic material {material}; it has {names}")
+    return name
 
 
 def rubber(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rubfric.decks.deck import UNITS, Deck, Elastic, number
+from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, number
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber
@@ -33,12 +33,7 @@ def read(source: str, text: str, material: str | None, stress: float, time: floa
     found = _cards(source, text)
     if not found:
         raise InvalidInput(f"{source} has no *MAT_GENERAL_VISCOELASTIC")
-    if material is None and len(found) > 1:
-        names = ", ".join(found)
-        raise InvalidInput(f"{source} has {len(found)} viscoelastic materials, {names}: name one with --material")
-    if material is not None and material not in found:
-        raise InvalidInput(f"{source} has no viscoelastic material {material}; it has {', '.join(found)}")
-    name = material or next(iter(found))
+    name = chosen(source, found, material)
     cards = [card + [0.0] * (8 - len(card)) for card in found[name]]
     if len(cards) < 3:
         raise InvalidInput(f"{source} has {len(cards)} cards of material {name}, but must have two and its terms")

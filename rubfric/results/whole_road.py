@@ -55,7 +55,15 @@ class WholeRoad:
         return cls(**dict(parameters) | {"material": Material(**parameters["material"]), "roads": roads})
 
     def couplings(self, velocity: float, pressure: float) -> list[Coupling]:
-        """Return what the scales of each road do to one another at a speed (mm/s) and a pressure (MPa)."""
+        """Return what the scales of each road do to one another at a speed (mm/s) and a pressure (MPa).
+
+        Parameters
+        ----------
+        velocity : float
+            mm/s.
+        pressure : float
+            Nominal, MPa.
+        """
         about = (velocity, pressure, self.height, self.plane, self.kinematics)
         return [estimate(self.material, road, *about) for road in self.roads]
 
@@ -64,6 +72,13 @@ class WholeRoad:
 
         In finite strain it is the corrected sum where no way is, and many of its waves are in contact: the whole road
         would take minutes there.
+
+        Parameters
+        ----------
+        velocity : float
+            mm/s.
+        pressure : float
+            Nominal, MPa.
         """
         try:
             ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}

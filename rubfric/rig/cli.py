@@ -59,7 +59,11 @@ def add_rig(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None:
     configs : callable
         Returns the configs to lay over one another, given those of ``--config``.
     """
-    rig = commands.add_parser("rig", help="reduce measured runs of a test rig, or simulate one")
+    rig = commands.add_parser(
+        "rig",
+        help="reduce measured runs of a test rig, or simulate one",
+        description="Friction from measured runs of a test rig, and runs of a virtual one.",
+    )
     own = rig.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_reduce(own)
     _add_simulate(own, configs)

@@ -39,7 +39,14 @@ class Column:
 
 
 def unused_loads(table: TextTable, used: Mapping[str, Column]) -> list[str]:
-    """Return the headings of columns that look like the normal force, and hold no other quantity."""
+    """Return the headings of columns that look like the normal force, and hold no other quantity.
+
+    Parameters
+    ----------
+    table : TextTable
+    used : mapping of str to Column
+        The columns that hold a quantity.
+    """
     taken = [column.place for column in used.values()]
     return [
         heading

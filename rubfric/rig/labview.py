@@ -60,7 +60,14 @@ def completed(path: str, lines: Sequence[str], form: Format) -> Format:
 
 
 def named(lines: Sequence[str], layout: Layout) -> Layout:
-    """Return a layout whose columns of X are named and have their unit where the header says that they are times."""
+    """Return a layout whose columns of X are named and have their unit where the header says that they are times.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        All lines of the file.
+    layout : Layout
+    """
     said = _entries(lines[: layout.heading_line])
     if said.get("X_Dimension", ["", ""])[1].strip() != "Time":
         return layout
@@ -71,7 +78,15 @@ def named(lines: Sequence[str], layout: Layout) -> Layout:
 
 
 def times(lines: Sequence[str], count: int) -> Real | None:
-    """Return the times (s) of rows without any, from the start and the step that the header gives; else None."""
+    """Return the times (s) of rows without any, from the start and the step that the header gives; else None.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Those above the rows.
+    count : int
+        How many rows there are.
+    """
     said = _entries(lines)
     if said.get("X_Columns", ["", ""])[1].strip() != "No":
         return None

@@ -34,7 +34,14 @@ class Made:
         self.everything = True
 
     def start(self, job: int, outputs: Collection[str]) -> None:
-        """Note which files a job is to make."""
+        """Note which files a job is to make.
+
+        Parameters
+        ----------
+        job : int
+            Its number in the run.
+        outputs : collection of str
+        """
         self._running[job] = outputs
 
     def finish(self, job: int) -> None:

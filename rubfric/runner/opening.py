@@ -46,7 +46,14 @@ class Costs:
         )
 
     def job(self, rule: str, kind: str) -> float:
-        """Return the time of one job of a rule that makes a ``table``, a ``figure`` or something else, s."""
+        """Return the time of one job of a rule that makes a ``table``, a ``figure`` or something else, s.
+
+        Parameters
+        ----------
+        rule : str
+        kind : str
+            Of what it makes, for rules whose own time was not measured.
+        """
         return self.by_rule.get(rule) or {"table": _TABLE, "figure": _FIGURE}.get(kind, _OTHER)
 
 

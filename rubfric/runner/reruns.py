@@ -68,14 +68,29 @@ def stamp(folder: str | os.PathLike[str], *modules: str) -> str:
 
 
 def stamp_files(folder: str | os.PathLike[str], name: str, paths: Iterable[Path]) -> str:
-    """Keep a file ``name`` in ``folder`` that represents some files of the package, as ``stamp`` does."""
+    """Keep a file ``name`` in ``folder`` that represents some files of the package, as ``stamp`` does.
+
+    Parameters
+    ----------
+    folder : path-like
+    name : str
+    paths : iterable of Path
+        Files of the package.
+    """
     found = list(paths)
     lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in found]
     return _kept(Path(folder, name), "\n".join(lines) + "\n", found)
 
 
 def copy_of(folder: str | os.PathLike[str], path: str | os.PathLike[str]) -> str:
-    """Keep a copy of a text file in ``folder``, as ``stamp`` keeps its own file, and return its path."""
+    """Keep a copy of a text file in ``folder``, as ``stamp`` keeps its own file, and return its path.
+
+    Parameters
+    ----------
+    folder : path-like
+    path : path-like
+        The file to copy.
+    """
     source = Path(path)
     return _kept(Path(folder, source.name), source.read_text(encoding="utf-8"), [source])
 

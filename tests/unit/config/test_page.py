@@ -82,6 +82,9 @@ def test_what_may_be_left_out_is_said() -> None:
     cells = {row[0].strip("`"): row for row in ROWS}
     assert cells["numerics.accuracy"][3:] == ["number from 1.0e-6 to 0.5; may be left out", "the preset's"]
     assert cells["rubbers.*.density"][3].endswith("; may be left out, for `1.1e-9`")
+    assert cells["rig.speeds"][3].endswith("; may be left out, for some of the grid's")
+    assert cells["rig.data"][3].endswith("; may be left out, for none")
+    assert cells["roads.*[].phase"][3].endswith("; may be left out, for `0`")
 
 
 def test_numbers_can_be_copied_into_yaml() -> None:
