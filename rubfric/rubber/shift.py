@@ -27,6 +27,8 @@ VERTICAL = ("none", "entropic", "table")
 KELVIN, GAS = 273.15, 8.314462618e-3
 # Temperatures at which something is still called rubber, degC.
 COLDEST, HOTTEST = -200.0, 500.0
+# By how much the reference may lie beyond a table, K: isotherms stray from their nominal temperature.
+_BEYOND = 1.01
 
 _NEEDS = {"wlf": ("c1", "c2"), "arrhenius": ("activation_energy",), "table": ("temperatures", "log_factors")}
 
@@ -91,6 +93,12 @@ class Shift:
             raise InvalidInput("shift.temperatures must be at least two, in ascending order")
         if self.log_factors and max(np.diff(self.log_factors)) > 0.0:
             raise InvalidInput("shift.log_factors rise with temperature, but rubber relaxes faster when it is warmer")
+        low, high, reference = self.temperatures[0], self.temperatures[-1], self.reference_temperature
+        if not low - _BEYOND <= reference <= high + _BEYOND:
+            raise InvalidInput(
+                f"shift.reference_temperature is {reference:g} degC, but must lie within shift.temperatures, "
+                f"{low:g} to {high:g} degC"
+            )
 
     def log_factor(self, temperature: float) -> float:
         """Return log10 a_T at a temperature in degC; a table is interpolated linearly.

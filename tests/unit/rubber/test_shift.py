@@ -40,6 +40,7 @@ def test_laws() -> None:
         ({"law": "table", "temperatures": (0.0, 9.0), "log_factors": (0.0, 1.0)}, "rise with temperature"),
         ({"law": "table", "temperatures": (0.0, 9.0), "log_factors": (0.0,)}, "must have as many as"),
         ({"law": "table", "temperatures": (9.0, 0.0), "log_factors": (1.0, 0.0)}, "in ascending order"),
+        ({"law": "table", "temperatures": (0.0, 9.0), "log_factors": (1.0, 0.0)}, "must lie within shift.temperatures"),
         ({"law": "wlf", "c1": 8.0, "c2": 90.0, "reference_temperature": 900.0}, "must be at most 500"),
     ],
 )
