@@ -52,7 +52,8 @@ def begin(path: str | os.PathLike[str]) -> None:
     Raises
     ------
     InvalidInput
-        Where there is such a file already, which is left alone, or the name is no name of a YAML file.
+        Where there is such a file already, which is left alone, the name is no name of a YAML file, or nothing can be
+        written there.
     """
     place = Path(path)
     name = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in place.stem)
@@ -63,3 +64,6 @@ def begin(path: str | os.PathLike[str]) -> None:
             stream.write(BEGINNING.format(file=os.fspath(path), name=name[:40] or "mine"))
     except FileExistsError:
         raise InvalidInput(f"{os.fspath(path)} exists, and is left as it is: give another name") from None
+    except OSError as error:
+        reason = "there is no such folder" if isinstance(error, FileNotFoundError) else error.strerror
+        raise InvalidInput(f"{os.fspath(path)} cannot be written: {reason}") from error

@@ -152,3 +152,5 @@ def test_config_to_begin_with_is_a_campaign_and_replaces_nothing(
     assert path.read_text() == before
     with pytest.raises(InvalidInput, match=r"must have a name that ends in .yaml"):
         begin(tmp_path / "mine")
+    with pytest.raises(InvalidInput, match=r"mine.yaml cannot be written: there is no such folder$"):
+        begin(tmp_path / "nowhere" / "mine.yaml")
