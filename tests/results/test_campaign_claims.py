@@ -44,7 +44,9 @@ def test_verdict_on_the_paper(verdicts: pd.Series, claim: str, verdict: str) -> 
 def test_readings_move_the_verdicts(verdicts: pd.Series) -> None:
     own = verdicts.xs("campaign", level="reading")
     strain = verdicts.xs("plane_strain", level="reading")
-    assert (strain == own[strain.index]).all()
+    # In plane strain sum and whole road are equal nowhere that both were simulated.
+    assert strain["C9"] == "does not hold"
+    assert (strain == own[strain.index]).drop("C9").all()
     assert verdicts["C7", "instantaneous_moduli"] == "does not hold"
 
 

@@ -1,6 +1,6 @@
 # Accuracy against cost, on a fixed set of scenes and on scenes drawn at random: tables, figures and a page. It takes
 # about an hour on two cores, and is no part of `all`. It measures the paper's rubber and road, whatever the config.
-PAPER = load(PAPER_CONFIG)
+PAPER = Campaign.from_config(read_yaml(PAPER_CONFIG))
 PRESETS = {name: asdict(numerics) for name, numerics in PAPER.presets.items()}
 LADDERS = fixed_scenes(PAPER) | total_scenes(PAPER)
 DRAWN = drawn_scenes(PAPER, count=60, seed=2019) | whole_scenes(
