@@ -9,7 +9,6 @@ from snakemake.settings.enums import Quietness
 
 import rubfric
 from rubfric.runner import jobs
-from rubfric.config.campaign import load
 from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
