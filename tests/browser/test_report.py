@@ -140,6 +140,6 @@ def test_pictures_come_first_and_tables_can_be_read(page: WebDriver) -> None:
     total = next(row for row in rows(page) if row.text.startswith("friction of the whole road: at most"))
     buttons(total)[0].click()
     page.switch_to.frame(wait_for(page, "#app .grow iframe"))
-    assert wait_for(page, "h1").text == "Friction of the whole road"
+    assert wait_for(page, "h1").text == "Friction of rubber zhou2019 on road zhou2019: all scales"
     assert len(page.find_elements(By.CSS_SELECTOR, "tbody tr")) == 4
     page.switch_to.default_content()
