@@ -110,7 +110,7 @@ powers_of_ten = st.integers(-6, 6).map(lambda power: 10.0**power)
 
 @pytest.mark.thorough
 @given(slidings(least_branches=1), powers_of_ten, powers_of_ten, powers_of_ten)
-@settings(max_examples=30)
+@settings(max_examples=12)
 def test_friction_depends_on_ratios_only(scene: Scene, length: float, time: float, stress: float) -> None:
     rubber = replace(
         scene.material,

@@ -15,7 +15,7 @@ from rubfric.scene.scene import Scene
 pytestmark = pytest.mark.thorough
 
 CAMPAIGN = rubfric.load(Path(__file__).resolve().parents[2] / "config/config.yaml")
-SCENES, TIME = 40, 1e-4
+SCENES, TIME = 24, 1e-4
 
 
 def drawn(chance: random.Random) -> Scene:
