@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, instantaneous, number
+from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, instantaneous, number, unshifted
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber
@@ -144,8 +144,7 @@ def write(rubber: Material | ShiftedRubber) -> str:
     InvalidInput
         For shift factors.
     """
-    if isinstance(rubber, ShiftedRubber):
-        raise InvalidInput("shift factors are not written to Ansys decks: write the rubber at one temperature")
+    rubber = unshifted(rubber, "Ansys")
     shear, bulk = instantaneous(rubber)
     young = 9.0 * bulk * shear / (3.0 * bulk + shear)
     poisson = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))

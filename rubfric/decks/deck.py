@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
+from rubfric.rubber.shift import ShiftedRubber
 from rubfric.rubber.shift import Shift
 
 # Stress units in MPa and times in s, by name.
@@ -235,6 +236,25 @@ def _short_of_one(
 def _listed(values: tuple[float, ...]) -> str:
     shown = ", ".join(f"{value:g}" for value in values[:4])
     return shown + (", ..." if len(values) > 4 else "")
+
+
+def unshifted(rubber: Material | ShiftedRubber, code: str) -> Material:
+    """Return a rubber for a code whose decks are written without shift factors.
+
+    Parameters
+    ----------
+    rubber : Material or ShiftedRubber
+    code : str
+        Name of the code, for the message.
+
+    Raises
+    ------
+    InvalidInput
+        For shift factors.
+    """
+    if isinstance(rubber, ShiftedRubber):
+        raise InvalidInput(f"shift factors are not written to {code} decks: write the rubber at one temperature")
+    return rubber
 
 
 def instantaneous(material: Material) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, number
+from rubfric.decks.deck import UNITS, Deck, Elastic, chosen, instantaneous, number, unshifted
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber
@@ -127,8 +127,7 @@ def write(rubber: Material | ShiftedRubber) -> str:
     InvalidInput
         For shift factors, and for more than 18 terms.
     """
-    if isinstance(rubber, ShiftedRubber):
-        raise InvalidInput("shift factors are not written to LS-DYNA decks: write the rubber at one temperature")
+    rubber = unshifted(rubber, "LS-DYNA")
     if len(rubber.relaxation_times) + 1 > _MOST:
         raise InvalidInput(
             f"{rubber.name} has {len(rubber.relaxation_times)} branches and a static modulus, but "
@@ -144,7 +143,7 @@ def write(rubber: Material | ShiftedRubber) -> str:
         )
     ]
     # Where the bulk modulus relaxes, BULK serves the time step alone.
-    bulk = still + float(rubber.branch_bulk_moduli.sum())
+    _, bulk = instantaneous(rubber)
     lines = [
         f"$ {UNITS}",
         *("*MAT_GENERAL_VISCOELASTIC_TITLE +", rubber.name),

@@ -20,7 +20,6 @@ from rubfric.rubber.material import Material
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import ALL, Scene
 
-MOTIONS = ("steady", "march")
 _CORNERS, _MARCHED_CORNERS, _SEED = 40, 12, 20190923
 # Speeds of the panel ``limits``, mm/s: two far slower than its branch relaxes, one near that, two far faster.
 LIMIT_SPEEDS = (1e-9, 1e-6, 1.0, 1e6, 1e9)
