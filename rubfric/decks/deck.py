@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
-from rubfric.rubber.shift import ShiftedRubber
-from rubfric.rubber.shift import Shift
+from rubfric.rubber.shift import Shift, ShiftedRubber
 
 # Stress units in MPa and times in s, by name.
 STRESS = {"MPa": 1.0, "Pa": 1e-6, "kPa": 1e-3, "GPa": 1e3, "psi": 6.894757293168e-3, "ksi": 6.894757293168}
