@@ -89,7 +89,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     assert "  18 of 18 scenes" in "\n".join(lines)
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
     assert "4 of 4 scenes of the whole road" in "\n".join(lines)
-    counts = "18 scenes, 4 scenes of the whole road, 1 march, 8 batches of other readings"
+    counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
     made = f": {counts}, 5 tables, 10 figures, 6 other jobs"
     assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
@@ -135,7 +135,7 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "field_figure": 2,
         "march": 1,
         "march_figure": 1,
-        "reading": 8,
+        "reading": 10,
         "claims": 1,
         "explorer": 1,
         "rig_points": 1,
@@ -149,7 +149,7 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
 def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -> None:
     done = empty_project.snakemake("-n")
     assert done.returncode == 0
-    counts = "18 scenes, 4 scenes of the whole road, 1 march, 8 batches of other readings"
+    counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
     would = f"{counts}, 5 tables, 10 figures, 6 other jobs"
     assert f"  Would be made: {would}; in about " in done.stdout
     assert "a campaign of your own, the grid and aspect_study, transient, rig, claims\n" in done.stdout

@@ -1,6 +1,6 @@
 # The paper's claims, judged by the campaign where the config asks for it; and other readings of what the paper leaves
 # open, in batches of one scale and speed, so that a new speed runs its own scenes only. Each has the whole road too, the
-# first of random ones, with its coarsest scale.
+# first of random ones, as one scale more.
 JUDGE = CAMPAIGN.claims
 READINGS = {name: CAMPAIGN.reading(name) for name in (JUDGE.compare if JUDGE else ())}
 OBSERVED = {
@@ -38,7 +38,7 @@ if JUDGE:
             f"{RESULTS}/logs/readings/{{reading}}/{RUBBER}/{ROAD}/{{batch}}.log",
         wildcard_constraints:
             reading=r"[A-Za-z0-9_-]+",
-            batch=r"scale\d+_v[0-9.e-]+",
+            batch=r"(scale\d+|all)_v[0-9.e-]+",
         localrule: workflow.remote_exec
         params:
             scenes=lambda wildcards: {

@@ -145,11 +145,11 @@ def reading_file(reading, batch):
 
 
 def batches_by_speed(scenes):
-    """Return scenes by name, in batches of one scale and speed; the whole road is with its coarsest scale."""
+    """Return scenes by name, in batches of one scale, or the whole road, and one speed."""
     batches = {}
     for name, scene in scenes.items():
-        scale = 1 if scene.scale == ALL else scene.scale
-        batch = f"scale{scale}_v{written(scene.velocity)}"
+        place = ALL if scene.scale == ALL else f"scale{scene.scale}"
+        batch = f"{place}_v{written(scene.velocity)}"
         batches.setdefault(batch, {})[name] = scene
     return batches
 
