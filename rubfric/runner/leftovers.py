@@ -6,7 +6,7 @@ import base64
 import binascii
 import json
 import os
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -17,9 +17,7 @@ from rubfric.checksums import remove_signature
 _SLACK = 2.0
 
 
-def remove_leftovers(
-    records: str | os.PathLike[str], results: str, rules: Collection[str], wanted: Collection[str]
-) -> list[str]:
+def remove_leftovers(records: str | os.PathLike[str], results: str, wanted: Mapping[str, Collection[str]]) -> list[str]:
     """Remove what the workflow made for an earlier config; return in a line each what was removed and what was left.
 
     Only files that Snakemake recorded as made by one of these rules are removed, and of them none that was changed
@@ -31,16 +29,14 @@ def remove_leftovers(
         Where Snakemake keeps its records.
     results : str
         Folder of the results.
-    rules : collection of str
-        Names of the rules, without the prefix of a module.
-    wanted : collection of str
-        What the present config makes by these rules.
+    wanted : mapping
+        What the present config makes, by rule: names without the prefix of a module.
     """
-    known = {os.path.normpath(path) for path in wanted}
+    known = {os.path.normpath(path) for paths in wanted.values() for path in paths}
     removed, changed = [], []
     for path, record in _made(Path(records), os.path.normpath(results)):
         rule = str(record.get("rule", ""))
-        if os.path.normpath(path) in known or not any(rule == name or rule.endswith(f"_{name}") for name in rules):
+        if os.path.normpath(path) in known or not any(rule == name or rule.endswith(f"_{name}") for name in wanted):
             continue
         with suppress(OSError):  # gone already, or not ours to remove
             if os.stat(path).st_mtime > float(record.get("endtime") or 0.0) + _SLACK:

@@ -235,10 +235,7 @@ def follow(workflow):
         expected=lambda rule: costs.job(rule, kind(rule)),
         at_once=lambda: workflow.resource_settings.cores or 1,
         leftovers=lambda: remove_leftovers(
-            ".snakemake/metadata",
-            RESULTS,
-            [*made_for_a_config()],
-            [path for paths in made_for_a_config().values() for path in paths],
+            ".snakemake/metadata", RESULTS, made_for_a_config()
         ),
     )
     attach(run, logger, silence=Quietness.RULES in quiet)

@@ -11,7 +11,9 @@ import pytest
 
 from rubfric.runner.leftovers import remove_leftovers
 
-RULES = ("scale_table", "claims")
+
+def wanted(*tables: str) -> dict[str, list[str]]:
+    return {"scale_table": list(tables), "claims": []}
 
 
 def made(records: Path, path: str, rule: str = "scale_table", *, split: int = 1000, later: float = 0.0) -> None:
@@ -38,7 +40,7 @@ def test_only_recorded_files_of_these_rules_are_removed(tmp_path: Path, monkeypa
     made(records, "out2/tables/two.csv")
     Path("out/tables/users.csv").write_text("mine\n")
     (records / "no record").write_text("{")
-    lines = remove_leftovers(records, "out", RULES, ["out/tables/one.csv"])
+    lines = remove_leftovers(records, "out", wanted("out/tables/one.csv"))
     assert lines == [
         "removed, since an earlier config made them and this one does not: out/claims.html, out/tables/two.csv",
         "left of an earlier config, since changed after they were made: out/tables/mine.csv",
@@ -48,5 +50,5 @@ def test_only_recorded_files_of_these_rules_are_removed(tmp_path: Path, monkeypa
         *("out/tables/one.csv", "out/tables/mine.csv", "out/tables/users.csv", "out/scenes/a.nc"),
         "out2/tables/two.csv",
     }
-    assert remove_leftovers(records, "out", RULES, ["out/tables/one.csv", "out/tables/mine.csv"]) == []
-    assert remove_leftovers("nowhere", "out", RULES, []) == []
+    assert remove_leftovers(records, "out", wanted("out/tables/one.csv", "out/tables/mine.csv")) == []
+    assert remove_leftovers("nowhere", "out", wanted()) == []
