@@ -81,3 +81,27 @@ def test_solved_guess_takes_one_pass(plane: str) -> None:
     found = point.direction(point.direction(everywhere(point.problem.finite)).touching)
     assert found.passes == 1
     assert found.krylov == found.most
+
+
+@PLANES
+def test_scale_is_even_on_a_flat_road_and_lower_where_rubber_is_compressed(plane: str) -> None:
+    finite = sliding(coarse(plane, dilatation="pointwise")).finite
+    fields = flat(finite, PRESSURE)
+
+    def scale(fields: Fields) -> Fields:
+        return scaling(finite, finite.stiffness(fields, finite.stressed(fields)), 1)
+
+    even = scale(fields)
+    for part in (even.displacement, even.log_thickness, even.volume):
+        np.testing.assert_allclose(part, 1.0, rtol=1e-12)
+    rows, columns = fields.displacement.shape[1:]
+    along = 2.0 * np.pi * np.arange(columns) / columns
+    fields.displacement[1] += (
+        0.1 * finite.block.row_positions[-1] * np.linspace(1.0, 0.0, rows)[:, None] * np.cos(along)
+    )
+    found = scale(fields)
+    # Pushed up at column 0, pulled down half a wavelength on.
+    assert found.displacement[0].argmin() in (0, 1, columns - 1)
+    assert found.displacement[0].argmax() == pytest.approx(columns / 2, abs=1)
+    np.testing.assert_array_equal(found.displacement[-1], 1.0)
+    np.testing.assert_allclose(found.log_thickness * found.volume, 1.0, rtol=1e-12)

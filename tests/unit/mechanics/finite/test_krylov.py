@@ -79,3 +79,13 @@ def test_single_precision_solves_to_its_round_off(matrix: Real, rng: np.random.G
     missed = np.linalg.norm(right - matrix @ vector) / np.linalg.norm(right)
     assert krylov.residual == pytest.approx(missed, abs=2e-6)
     assert 0.0 < missed < 1.1e-4
+
+
+def test_basis_stays_orthonormal_where_the_operator_hardly_turns_a_vector(
+    matrix: Real, rng: np.random.Generator
+) -> None:
+    krylov = begun(1e6 * np.eye(SIZE) + matrix, rng.standard_normal(SIZE))
+    for _ in range(4):
+        krylov.grow()
+    basis = krylov._basis[:5]
+    np.testing.assert_allclose(basis @ basis.T, np.eye(5), atol=1e-14)
