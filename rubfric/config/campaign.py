@@ -14,6 +14,7 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.config.default import over_default
+from rubfric.config.measured import MeasuredRubber, fitted_rubber
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -38,6 +39,7 @@ from rubfric.config.references import (
 from rubfric.config.rig import RigChoice
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
+from rubfric.rubber.fitted import FittedRubber
 from rubfric.rubber.material import Material
 from rubfric.rules import Choice
 from rubfric.scene.numerics import Numerics
@@ -87,6 +89,8 @@ class Campaign:
     numerics : Numerics
     presets : dict of str to Numerics
         Every preset, by name.
+    fitted : FittedRubber or None
+        The rubber where it was fitted to measured moduli, with its shift factors and what the measurement leaves open.
     """
 
     results: str
@@ -107,17 +111,32 @@ class Campaign:
     claims: ClaimsChoice | None
     numerics: Numerics
     presets: dict[str, Numerics]
+    fitted: FittedRubber | None = None
 
     @classmethod
-    def from_config(cls, config: Mapping[str, Any]) -> Campaign:
-        """Check a config whole and read it; InvalidInput says in a sentence each what is wrong with it."""
+    def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
+        """Check a config whole and read it; a rubber that was measured is fitted.
+
+        Parameters
+        ----------
+        config : mapping
+        kept : path-like, optional
+            Folder in which the fit of a measured rubber is kept from run to run.
+
+        Raises
+        ------
+        InvalidInput
+            A sentence on everything that is wrong.
+        """
         given = read_whole(config)
+        entry = given.rubbers[given.rubber]
+        fitted = fitted_rubber(given.rubber, entry, kept) if isinstance(entry, MeasuredRubber) else None
         scales = [dict(scale) for scale in given.roads[given.road]]
         road = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
         numerics, presets = numerics_of(given)
         campaign = cls(
             results=given.results,
-            material=Material(name=given.rubber, **given.rubbers[given.rubber].given()),
+            material=fitted.material if fitted else Material(name=given.rubber, **entry.given()),
             road_name=given.road,
             road=road,
             phases=tuple(scale["phase"] for scale in scales),
@@ -134,6 +153,7 @@ class Campaign:
             claims=given.claims,
             numerics=numerics,
             presets=presets,
+            fitted=fitted,
         )
         _ = campaign.whole_roads  # refuses a road without a period
         return campaign
@@ -183,6 +203,7 @@ class Campaign:
             plane=self.plane if plane is None else plane,
             kinematics=self.kinematics if kinematics is None else kinematics,
             numerics=numerics if accuracy is None else replace(numerics, accuracy=accuracy),
+            measured=self.fitted.measured if self.fitted else None,
         )
 
     @cached_property
@@ -248,9 +269,11 @@ class Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
         readings = readings_of(self.claims)
         other = readings[Choice(words=readings).check("reading", name)]
+        material = other.rubber(self.material)
         return replace(
             self,
-            material=other.rubber(self.material),
+            material=material,
+            fitted=self.fitted if material == self.material else None,  # no longer the rubber that was fitted
             plane=other.plane or self.plane,
             kinematics=other.kinematics or self.kinematics,
             numerics=self.presets[self.claims.preset] if self.claims else self.numerics,

@@ -12,9 +12,10 @@ from collections.abc import Mapping
 from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import create_model, model_validator
+from pydantic import Discriminator, Tag, create_model, model_validator
 
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
+from rubfric.config.measured import MeasuredRubber
 from rubfric.config.multiscale import WAYS
 from rubfric.config.place import Place
 from rubfric.config.rig import RigChoice
@@ -186,6 +187,12 @@ def _sound(rubber: Any) -> Any:
     return rubber
 
 
+def _kind_of_rubber(given: Any) -> str:
+    """Return the tag of a rubber that is measured, or of one that is given."""
+    measured = isinstance(given, MeasuredRubber) or (isinstance(given, Mapping) and "measurements" in given)
+    return f"{HERE}{'measured' if measured else 'given'}"
+
+
 if TYPE_CHECKING:  # made of the dataclasses below
     NumericsChoice = Entry
     Preset = Entry
@@ -279,7 +286,16 @@ class Config(Entry):
         dict[str, Preset],
         Catalogue("Accuracies with the first mesh on which to look for them, by name."),
     ]
-    rubbers: Annotated[dict[str, Rubber], Catalogue("Rubbers by name.")]
+    rubbers: Annotated[
+        dict[
+            str,
+            Annotated[
+                Annotated[Rubber, Tag(f"{HERE}given")] | Annotated[MeasuredRubber, Tag(f"{HERE}measured")],
+                Discriminator(_kind_of_rubber),
+            ],
+        ],
+        Catalogue("Rubbers by name: by their Prony series, or by the file of measured moduli that it is fitted to."),
+    ]
     roads: Annotated[
         dict[str, Annotated[list[Scale], Scales("Scales of a road, from coarse to fine; scale 1 is the first.")]],
         Catalogue("Roads by name."),

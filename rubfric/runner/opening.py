@@ -86,6 +86,7 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         campaign.words().removesuffix("."),
         *([f"a campaign of your own, {grid}{without}"] if own else []),
         *_scales(campaign),
+        *_fit(campaign),
         _moduli(campaign),
         _scenes(campaign),
     ]
@@ -100,9 +101,26 @@ def _scales(campaign: Campaign) -> list[str]:
     ]
 
 
-def _moduli(campaign: Campaign) -> str:
+def _fit(campaign: Campaign) -> list[str]:
+    """Say what a measured rubber was fitted to, and whether the road excites it beyond what was measured."""
+    fitted = campaign.fitted
+    if fitted is None:
+        return []
+    slow, fast = _excited(campaign)
+    low, high = fitted.measured.window
+    beyond = [f"from {slow:.3g} rad/s up"] * (slow < low) + [f"up to {fast:.3g} rad/s"] * (fast > high)
+    words = f"; the road excites it {' and '.join(beyond)}, beyond that: such scenes carry a warning" if beyond else ""
+    return [fitted.words + words, *(f"the fit of {fitted.material.name}: {one}" for one in fitted.warnings)]
+
+
+def _excited(campaign: Campaign) -> tuple[float, float]:
+    """Return the lowest and the highest angular frequency k v of the campaign, rad/s."""
     numbers = [scale.wavenumber for scale in campaign.road]
-    low, high = min(numbers) * campaign.velocities[0], max(numbers) * campaign.velocities[-1]
+    return min(numbers) * campaign.velocities[0], max(numbers) * campaign.velocities[-1]
+
+
+def _moduli(campaign: Campaign) -> str:
+    low, high = _excited(campaign)
     modulus = campaign.material.plane_modulus(np.geomspace(low, high, 64), "stress")
     loss = modulus.imag / modulus.real
     return (

@@ -199,6 +199,7 @@ def made_for_a_config():
             [*FIGURES, *MARCH_FIGURE],
         ),
         "rig_points": RIG_TABLES,
+        "rubber_fit": RUBBER_FILES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -221,6 +222,7 @@ def follow(workflow):
             f"{RESULTS}/{path}"
             for path in (
                 *(["claims.html"] if CAMPAIGN.claims else []),
+                *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
