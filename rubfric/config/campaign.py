@@ -14,7 +14,8 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.config.default import over_default
-from rubfric.config.measured import MeasuredRubber, fitted_rubber
+from rubfric.config.fitting import fitted_rubber
+from rubfric.config.measured import MeasuredRubber
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,

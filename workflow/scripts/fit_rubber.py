@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from rubfric.config.measured import MeasuredRubber, arguments
+from rubfric.config.fitting import arguments
+from rubfric.config.measured import MeasuredRubber
 from rubfric.dma.bootstrap import bootstrap
 from rubfric.dma.fitted import fit_file
 from rubfric.rubber_commands import write_fit
