@@ -18,8 +18,8 @@ from rubfric.errors import BrokenResult
 from rubfric.mechanics.steady.energies import disagreement
 from rubfric.results.dataset import load
 from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
-from rubfric.results.scalars import SCALARS, attributes
-from rubfric.results.selection import REFUSAL, REFUSALS
+from rubfric.results.scalars import OF_MEASURED, SCALARS, attributes
+from rubfric.results.selection import REFUSAL, REFUSALS, RUBBER_ERROR
 
 AXES: dict[str, tuple[str, str]] = {
     "scale": ("1", "scale of the road, 1 being the coarsest; 0 is all at once"),
@@ -135,21 +135,22 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
             point = tuple(float(stored.getncattr(axis)) for axis in AXES)
             refused = str(stored.getncattr(REFUSAL)) if REFUSAL in stored.ncattrs() else ""
-            values = {} if refused else {name: float(stored[name][...]) for name in SCALARS}
+            own = [*SCALARS, *(name for name in OF_MEASURED if name in stored.variables)]
+            values = {} if refused else {name: float(stored[name][...]) for name in own}
             if not refused:
                 values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
             road = {name: float(np.min(stored.getncattr(name))) for name in _ROAD}
-            own = str(stored.getncattr("scene_digest"))
+            digest_of_file = str(stored.getncattr("scene_digest"))
     except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
         raise BrokenResult(f"{path} is no readable result: {error}") from error
-    if digest not in (None, own):
+    if digest not in (None, digest_of_file):
         raise BrokenResult(f"{path} {OTHER_SCENE}")
     if not refused:
         _check_bounds(path, values)
-    return _Found(point, values, common, road, refused, own)
+    return _Found(point, values, common, road, refused, digest_of_file)
 
 
 def _check_bounds(path: str, values: dict[str, float]) -> None:
@@ -160,7 +161,7 @@ def _check_bounds(path: str, values: dict[str, float]) -> None:
     bounds = {
         "a number that is not finite": not all(map(math.isfinite, values.values())),
         "a friction below zero by more than its error": friction < -error,
-        "a negative error": error < 0.0,
+        "a negative error": min(error, values.get(RUBBER_ERROR, 0.0)) < 0.0,
         "a contact fraction outside 0 to 1": not 0.0 < values["contact_fraction"] <= 1.0,
         "a negative pressure": min(values["maximum_contact_pressure"], values["maximum_local_contact_pressure"]) < 0.0,
         "routes to friction that do not differ by its energy_closure": abs(differ - closure) > 1e-9 * max(differ, 1.0),
@@ -172,7 +173,8 @@ def _check_bounds(path: str, values: dict[str, float]) -> None:
 def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Dataset:
     axes = {name: np.array(sorted({one.point[place] for one in found})) for place, name in enumerate(AXES)}
     shape = tuple(len(axis) for axis in axes.values())
-    about_all = SCALARS | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
+    of_measured = {name: about for name, about in OF_MEASURED.items() if any(name in one.values for one in found)}
+    about_all = SCALARS | of_measured | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
     arrays = {name: np.full(shape, np.nan) for name in about_all}
     for one in found:
         index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), one.point, strict=True))

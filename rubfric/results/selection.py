@@ -20,6 +20,8 @@ REFUSAL, NOT_NEEDED = "refusal", "not solved at once; instead the total is by wa
 REFUSALS = "refusals"
 # Of a mean over roads with random phases: how many were solved, and the standard error of the mean friction over them.
 DRAWS, ROAD_ERROR = "draws", "friction_road_error"
+# What the data of a measured rubber leave open of friction.
+RUBBER_ERROR = "friction_coefficient_rubber_error"
 # With fewer points no peak can lie between others.
 _FEWEST = 3
 
@@ -122,6 +124,17 @@ def friction_error(campaign: xr.Dataset, **chosen: float) -> xr.DataArray:
         As for ``pick``.
     """
     return pick(campaign, "friction_coefficient_error", **chosen)
+
+
+def rubber_error(campaign: xr.Dataset, **chosen: float) -> xr.DataArray | None:
+    """Return what the rubber's data leave open of friction, absolute, as ``pick`` does; None for one not measured.
+
+    Parameters
+    ----------
+    campaign, **chosen
+        As for ``pick``.
+    """
+    return pick(campaign, RUBBER_ERROR, **chosen) if RUBBER_ERROR in campaign else None
 
 
 def described(**chosen: float) -> str:

@@ -11,12 +11,15 @@ import xarray as xr
 from rubfric.checksums import AGAIN, check_signature, sign
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
-from rubfric.results.selection import check_variables
+from rubfric.results.scalars import OF_MEASURED
+from rubfric.results.selection import RUBBER_ERROR, check_variables
 
 # variable: heading
 _COLUMNS = {
     "friction_coefficient": "friction_coefficient",
     "friction_coefficient_error": "friction_coefficient_error",
+    RUBBER_ERROR: RUBBER_ERROR,
+    "friction_beyond_window": "friction_beyond_window",
     "friction_coefficient_dissipation": "friction_coefficient_dissipation",
     "friction_coefficient_contact": "friction_coefficient_contact",
     "energy_closure": "energy_closure",
@@ -55,11 +58,12 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     BrokenResult
         If the campaign lacks a variable of the table.
     """
-    check_variables(campaign, *_COLUMNS)
-    chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
+    columns = [name for name in _COLUMNS if name not in OF_MEASURED or name in campaign]
+    check_variables(campaign, *columns)
+    chosen = campaign[columns].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
-    return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
+    return table.reset_index()[["velocity", "pressure", "aspect", *columns]].rename(columns=_AXES | _COLUMNS)
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool = True) -> pd.DataFrame:

@@ -7,7 +7,8 @@ would say in small strain, to a percent.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -92,9 +93,7 @@ def load_sine(layer: Layer, road: SineScale, pressure: float) -> Loaded:
     NotConverged
         As ``solve_contact`` does.
     """
-    share = float(westergaard_contact_fraction(pressure / layer.filling(road)[0]))
-    nodes = _power(min(max(_NODES / share, _FEWEST), _MOST))
-    return _loaded(road, _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share)), pressure)
+    return _loaded(road, _on_sine(layer, road, pressure), pressure)
 
 
 def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
@@ -114,6 +113,46 @@ def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
     NotConverged
         As ``solve_contact`` does.
     """
+    return _loaded(road, _on_road(layer, road, pressure), pressure)
+
+
+def sample_friction(layer: Layer, samples: Sequence[Material], road: Road, pressure: float) -> Real:
+    """Return friction coefficients of a layer, and of the same with other rubbers that differ little from its own.
+
+    All are found on the same surface nodes, so that their differences are those of the rubbers.
+
+    Parameters
+    ----------
+    layer : Layer
+    samples : sequence of Material
+    road : Road
+    pressure : float
+        Nominal, MPa.
+
+    Returns
+    -------
+    ndarray, shape (1 + samples,)
+        The layer's own first.
+
+    Raises
+    ------
+    NotConverged
+        As ``solve_contact`` does.
+    """
+    first = _on_sine(layer, road, pressure) if isinstance(road, SineScale) else _on_road(layer, road, pressure)
+    nodes, start = len(first.pressure), first.touching
+    others = (replace(layer, material=each) for each in samples)
+    contacts = [first, *(_slide(other, road, pressure, nodes, start) for other in others)]
+    return np.array([_loaded(road, each, pressure).friction for each in contacts])
+
+
+def _on_sine(layer: Layer, road: SineScale, pressure: float) -> Contact:
+    share = float(westergaard_contact_fraction(pressure / layer.filling(road)[0]))
+    nodes = _power(min(max(_NODES / share, _FEWEST), _MOST))
+    return _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share))
+
+
+def _on_road(layer: Layer, road: Road, pressure: float) -> Contact:
     least = _power(_PER_WAVE * finest_waves(road))
     share = contact_fractions(layer.material, road, layer.velocity, pressure, layer.height, layer.plane)[-1]
     nodes = least // 2
@@ -122,7 +161,7 @@ def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
         found = _slide(layer, road, pressure, nodes, start)
         touching = found.touching
         if nodes >= least and (np.count_nonzero(touching) >= _TOUCHING or nodes >= max(_MOST, least)):
-            return _loaded(road, found, pressure)
+            return found
         start, nodes = np.repeat(touching | np.roll(touching, 1) | np.roll(touching, -1), 2), 2 * nodes
 
 
