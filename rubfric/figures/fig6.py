@@ -11,7 +11,7 @@ from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.selection import friction, friction_error, written
+from rubfric.results.selection import friction, friction_error, rubber_error, written
 
 
 @style.applied()
@@ -31,7 +31,7 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     -------
     matplotlib.figure.Figure
         Rings mark the largest of the sampled points of a line, where it lies between others. Bands around the lines
-        are the estimated errors; the legend gives the largest.
+        are the estimated errors, those from the data of a measured rubber included; the legend gives the largest.
 
     Raises
     ------
@@ -42,6 +42,10 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     """
     grid = friction(campaign, aspect=aspect).dropna("pressure", how="all")
     errors = friction_error(campaign, aspect=aspect).sel(pressure=grid["pressure"]).transpose(*grid.dims)
+    data = rubber_error(campaign, aspect=aspect)
+    if data is not None:
+        data = data.sel(pressure=grid["pressure"]).transpose(*grid.dims)
+        errors = errors + data
     scales = [int(scale) for scale in grid["scale"].values[::-1]]
     pressures = [float(pressure) for pressure in grid["pressure"].values]
     speeds = grid["velocity"].values
@@ -60,7 +64,10 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     panels.entitle(axes, _titles(scales, micro))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
     handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
-    marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
+    marks = [
+        *peak_handles(*axes),
+        band_handle(grid.values, errors.values, rubber=data if data is None else data.values),
+    ]
     panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
     return figure
 

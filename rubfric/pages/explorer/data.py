@@ -15,7 +15,7 @@ from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
 from rubfric.pages.explorer.pictures import WIDER, Store, is_whole, picture
 from rubfric.pages.explorer.totals import WHOLE, about, by_way, on_axes, reasons
-from rubfric.results.selection import check_variables, find_peak, position
+from rubfric.results.selection import RUBBER_ERROR, check_variables, find_peak, position
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
 # Numbers of every scene: variable, name in the page.
@@ -33,6 +33,8 @@ _SCALARS = {
     "columns": "columns",
     "rows": "rows",
 }
+# And of a measured rubber.
+_RUBBER = {RUBBER_ERROR: "rubberError"}
 _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
 # Most nodes of a picture, over the height and along a wavelength, and the fewest; of how many pictures the most are
 # kept, so that the page stays below 10 MB.
@@ -113,7 +115,9 @@ def payload(
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     """Return the campaign at one ratio, over scale, pressure and speed, without those of which nothing was run."""
     check_variables(campaign, *_SCALARS, "amplitude", "wavenumber")
-    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=position(campaign, "aspect", aspect), drop=True)
+    grid = campaign[[*_numbers(campaign), "amplitude", "wavenumber"]].isel(
+        aspect=position(campaign, "aspect", aspect), drop=True
+    )
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
@@ -158,11 +162,16 @@ def _scenes(grid: xr.Dataset) -> dict[str, list[list[dict[str, Any] | None]]]:
 
 
 def _cells(field: xr.Dataset) -> list[list[dict[str, Any] | None]]:
-    names = list(_SCALARS.values())
+    numbers = _numbers(field)
     return [
-        [dict(zip(names, _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
-        for row in np.stack([field[name].values for name in _SCALARS], axis=-1)
+        [dict(zip(numbers.values(), _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
+        for row in np.stack([field[name].values for name in numbers], axis=-1)
     ]
+
+
+def _numbers(field: xr.Dataset) -> dict[str, str]:
+    """Return the numbers of every scene that there are: variable, name in the page."""
+    return _SCALARS | {name: shown for name, shown in _RUBBER.items() if name in field}
 
 
 def _pictures(

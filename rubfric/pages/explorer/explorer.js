@@ -120,7 +120,7 @@ function showAbout() {
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
   byId("about").textContent = `Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
-  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. It covers neither the data of the rubber nor the choice of its law.`;
+  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. ${limitsWords(data)}`;
 }
 
 function showWords() {
