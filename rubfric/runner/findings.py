@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
+from rubfric.results.selection import RUBBER_ERROR
 
 # How a total was obtained, in words.
 WAYS = {
@@ -34,6 +35,7 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     scenes, warned, worst, where = 0, 0, -1.0, ""
+    data = -1.0
     for path in tables:
         for row in _rows(path, "friction_coefficient_error", "warnings"):
             friction, error = float(row["friction_coefficient"]), float(row["friction_coefficient_error"])
@@ -41,11 +43,14 @@ def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
             warned += int(row["warnings"]) > 0
             if friction and error / abs(friction) > worst:
                 worst, where = error / abs(friction), _place(path, row)
+            if friction and row.get(RUBBER_ERROR):
+                data = max(data, float(row[RUBBER_ERROR]) / abs(friction))
     if not scenes:
         return []
     carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
         *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
+        *([f"beside that at most {100.0 * data:.2g} % from the data of the rubber"] if data >= 0.0 else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 

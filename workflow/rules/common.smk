@@ -222,10 +222,10 @@ def follow(workflow):
             f"{RESULTS}/{path}"
             for path in (
                 *(["claims.html"] if CAMPAIGN.claims else []),
-                *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
+                *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
             )
         ],
         dry=lambda: workflow.dryrun,
