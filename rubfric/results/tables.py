@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 import xarray as xr
@@ -12,6 +12,7 @@ from rubfric.checksums import AGAIN, check_signature, sign
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.selection import check_variables
+from rubfric.results.temperature import AXIS, COLUMN, at_temperature
 
 # variable: heading
 _COLUMNS = {
@@ -41,7 +42,7 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
-    """Return all scenes of one scale, by aspect, pressure and speed.
+    """Return all scenes of one scale, by temperature where there are several, aspect, pressure and speed.
 
     Parameters
     ----------
@@ -56,10 +57,19 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
         If the campaign lacks a variable of the table.
     """
     check_variables(campaign, *_COLUMNS)
+    if AXIS in campaign.dims:
+        return by_temperature({float(one): scale_table(at_temperature(campaign, one), scale) for one in campaign[AXIS]})
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
     return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
+
+
+def by_temperature(tables: Mapping[float, pd.DataFrame]) -> pd.DataFrame:
+    """Return tables, each of a temperature (degC), as one that has it in its third column."""
+    for temperature, table in tables.items():
+        table.insert(2, COLUMN, temperature)
+    return pd.concat(tables.values(), ignore_index=True)
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool = True) -> pd.DataFrame:

@@ -27,12 +27,13 @@ SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
     if name == f"{DRAW}{scene.name}"
+    and scene.temperature == TEMPERATURE
     and scene.pressure in sorted(SHOWN.pressures)[:2]
     and scene.velocity in sorted(SHOWN.velocities)[-3:]
 }
 # Made before Snakemake looks for them: of files that appear while it does it would know nothing.
 DRAWN_BY = {
-    figure: package_files(f"rubfric.figures.{figure}")
+    figure: package_files(f"rubfric.figures.{figure}", "rubfric.figures.temperature")
     for figure in [*CAMPAIGN_FIGURES, *FIELD_FIGURES, *TOTAL_FIGURES, "fig11"]
 }
 FIGURE_WORDS = {
@@ -77,6 +78,7 @@ rule campaign_figure:
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
         digests=[COLLECTED],
+        temperature=TEMPERATURE,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -88,6 +90,7 @@ rule campaign_figure:
             choice=params.choice,
             outputs=list(output),
             digests=params.digests,
+            temperature=params.temperature,
         )
 
 
@@ -109,6 +112,7 @@ rule field_figure:
     localrule: True
     params:
         digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
+        temperature=TEMPERATURE,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -120,6 +124,7 @@ rule field_figure:
             choice={},
             outputs=list(output),
             digests=params.digests,
+            temperature=params.temperature,
         )
 
 
@@ -143,6 +148,7 @@ rule total_figure:
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
+        temperature=TEMPERATURE,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -154,6 +160,7 @@ rule total_figure:
             campaign=input.campaign,
             collected=params.collected,
             choice=params.choice,
+            temperature=params.temperature,
             outputs=list(output),
         )
 
@@ -176,6 +183,7 @@ rule whole_figure:
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
         draws=DRAWS,
+        temperature=TEMPERATURE,
     message:
         "Drawing fig11"
     run:
@@ -186,6 +194,7 @@ rule whole_figure:
             outputs=list(output),
             digests=params.digests,
             draws=params.draws,
+            temperature=params.temperature,
         )
 
 
