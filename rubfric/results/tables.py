@@ -58,7 +58,9 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     """
     check_variables(campaign, *_COLUMNS)
     if AXIS in campaign.dims:
-        return by_temperature({float(one): scale_table(at_temperature(campaign, one), scale) for one in campaign[AXIS]})
+        return by_temperature(
+            {one: scale_table(at_temperature(campaign, one), scale) for one in campaign[AXIS].values.tolist()}
+        )
     chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
