@@ -17,6 +17,16 @@ TOTAL_FIGURES = {
         "pressures": sorted({min(SHOWN.pressures), CAMPAIGN.figures.total_pressure})
     },
 }
+# And one of all temperatures, where there are several.
+if len(CAMPAIGN.temperatures) > 1:
+    TOTAL_FIGURES["fig12"] = {
+        "pressure": CAMPAIGN.figures.total_pressure,
+        "factors": {
+            one: (CAMPAIGN.shift.factor(one), CAMPAIGN.shift.modulus_factor(one))
+            for one in CAMPAIGN.temperatures
+        },
+        "reference": CAMPAIGN.shift.reference_temperature,
+    }
 WHOLE_FIGURES = ["fig11"] if WHOLE else []
 
 
@@ -45,6 +55,7 @@ FIGURE_WORDS = {
     "fig7": "friction of the whole road",
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
+    "fig12": "friction over speed and temperature",
 }
 RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
 FIGURES = [
@@ -148,7 +159,9 @@ rule total_figure:
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
-        temperature=TEMPERATURE,
+        temperature=lambda wildcards: (
+            None if wildcards.figure == "fig12" else TEMPERATURE
+        ),
     message:
         "Drawing {wildcards.figure}"
     run:

@@ -25,7 +25,7 @@ def main(
     Parameters
     ----------
     figure : str
-        ``fig7``, which shows the scales of the campaign too, or ``fig10``.
+        ``fig7``, which shows the scales of the campaign too, ``fig10``, or ``fig12``, which shows all temperatures.
     table, campaign : str
         Paths of the table of totals (CSV) and of the collection of all scenes (netCDF).
     collected : str
@@ -38,6 +38,7 @@ def main(
         What the figure shows of several, degC, and names.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
-    totals = rows_at(read_table(table, WORDS), temperature)
+    totals = read_table(table, WORDS)
+    totals = totals if temperature is None else rows_at(totals, temperature)
     scales = [at_temperature(read(campaign, collected), temperature)] if figure == "fig7" else []
     save(name_temperature(draw(*scales, totals, **choice), temperature), *outputs)
