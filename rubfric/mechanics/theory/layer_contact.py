@@ -25,6 +25,8 @@ from rubfric.rubber.material import Material
 _NODES, _FEWEST, _MOST = 32, 64, 16384
 # On a whole road: nodes along the finest wave and in contact that are enough, and most nodes of all.
 _PER_WAVE, _TOUCHING = 16, 128
+# By how much friction from pressures on slopes may differ from the energy that the layer dissipates, relative.
+_AGREEMENT = 0.04
 # The first guess of the contact: that of an elastic half-space, this much wider.
 _FIRST_GUESS = 1.2
 
@@ -94,7 +96,8 @@ def load_sine(layer: Layer, road: SineScale, pressure: float) -> Loaded:
     """
     share = float(westergaard_contact_fraction(pressure / layer.filling(road)[0]))
     nodes = _power(min(max(_NODES / share, _FEWEST), _MOST))
-    return _loaded(road, _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share)), pressure)
+    contact = _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share))
+    return _loaded(layer, road, contact, pressure)
 
 
 def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
@@ -122,7 +125,7 @@ def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
         found = _slide(layer, road, pressure, nodes, start)
         touching = found.touching
         if nodes >= least and (np.count_nonzero(touching) >= _TOUCHING or nodes >= max(_MOST, least)):
-            return _loaded(road, found, pressure)
+            return _loaded(layer, road, found, pressure)
         start, nodes = np.repeat(touching | np.roll(touching, 1) | np.roll(touching, -1), 2), 2 * nodes
 
 
@@ -135,10 +138,20 @@ def _slide(layer: Layer, road: Road, pressure: float, nodes: int, start: Flags) 
     return full_contact(spectrum, profile, pressure) or solve_contact(spectrum, profile, pressure, start, label)
 
 
-def _loaded(road: Road, contact: Contact, pressure: float) -> Loaded:
+def _loaded(layer: Layer, road: Road, contact: Contact, pressure: float) -> Loaded:
+    """Return what a contact says; its friction is that of pressures on slopes, within bounds of the energy dissipated.
+
+    Rubber that is nearly relaxed dissipates so little that the former is the difference of large numbers: round a patch
+    of some nodes it may be anything, while the energy, mu p = -sum of k |p_k|² Im C(k) over all k, has no such error.
+    """
     nodes, touching = len(contact.pressure), contact.touching
     slope = road.slope(road.period / nodes * np.arange(nodes))
-    friction = float(np.mean(contact.pressure * slope)) / pressure
+    by_slope = float(np.mean(contact.pressure * slope)) / pressure
+    wavenumber = 2.0 * np.pi / road.period * np.arange(1, nodes // 2 + 1)
+    twice = np.where(np.arange(1, nodes // 2 + 1) == nodes / 2, 1.0, 2.0)
+    power = twice * wavenumber * np.abs(np.fft.rfft(contact.pressure)[1:] / nodes) ** 2
+    by_energy = float(-np.sum(power * layer.compliance(wavenumber).imag)) / pressure
+    friction = float(np.clip(by_slope, (1.0 - _AGREEMENT) * by_energy, (1.0 + _AGREEMENT) * by_energy))
     return Loaded(friction, np.sort(contact.pressure[touching]), float(np.mean(touching)))
 
 
