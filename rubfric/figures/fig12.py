@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterMathtext, LogLocator
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
@@ -39,8 +40,8 @@ def draw(
     Returns
     -------
     matplotlib.figure.Figure
-        Bands are the whole errors of the totals. With b_T = 1 friction depends on a_T v alone, so that the lines of
-        the second panel are parts of one curve; else each is at another pressure over b_T, as the note says.
+        Bands and bars are the whole errors of the totals. With b_T = 1 friction depends on a_T v alone, so that the
+        points of the second panel are on one curve; else each is at another pressure over b_T, as the note says.
 
     Raises
     ------
@@ -56,11 +57,14 @@ def draw(
     looks = style.lines(len(found))
     reduced = {one: factors[one][0] * each.speeds for one, each in found.items()}
     for (one, each), look in zip(found.items(), looks, strict=True):
-        for panel, places in zip(axes, (each.speeds, reduced[one]), strict=True):
-            draw_band(panel, places, each.total, each.error, look["color"])
-            panel.plot(places, each.total, **look)
+        draw_band(axes[0], each.speeds, each.total, each.error, look["color"])
+        axes[0].plot(each.speeds, each.total, **look)
+        spread = np.nan_to_num(each.error, nan=0.0)
+        axes[1].errorbar(reduced[one], each.total, yerr=spread, **look | {"linestyle": "none"}, elinewidth=0.8)
     scale_speeds(axes[0], np.concatenate([one.speeds for one in found.values()]))
     scale_speeds(axes[1], np.concatenate(list(reduced.values())))
+    axes[1].xaxis.set_major_locator(LogLocator(10.0, numticks=8))
+    axes[1].xaxis.set_major_formatter(LogFormatterMathtext())
     scale_friction(axes[0], upper(total, error))
     panels.entitle(axes, ["at each temperature", f"shifted to {written(reference)} °C"])
     axes[0].set_xlabel("sliding speed $v$ (mm/s)")
