@@ -66,8 +66,7 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     -------
     xarray.Dataset
         Dimensions scale, velocity (mm/s), pressure (MPa), aspect, and temperature (degC) where scenes have one;
-        ``amplitude`` and ``wavenumber`` over scale. What
-        was refused, and why: ``refusals``.
+        ``amplitude`` and ``wavenumber`` over scale. What was refused, and why: ``refusals``.
 
     Raises
     ------
@@ -83,6 +82,9 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     for path, one in zip(files, found, strict=True):
         if one.point in first:
             raise BrokenResult(f"{path} is a second result of its scene; keep one of them")
+        if len(one.point) != len(found[0].point):
+            has, had = ("a", "none") if one.material else ("no", "one")
+            raise BrokenResult(f"{path} has {has} temperature, but the results before it have {had}")
         shared = found[0].shared
         if shared != one.shared:
             other = next(name for name in shared if one.shared[name] != shared[name])
@@ -91,9 +93,6 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
             raise BrokenResult(
                 f"{path} has {one.road} on scale {one.point[0]:g}, but another result {road[one.point[0]]}"
             )
-        if len(one.point) != len(found[0].point):
-            has, had = ("a", "none") if one.material else ("no", "one")
-            raise BrokenResult(f"{path} has {has} temperature, but the results before it have {had}")
         if one.material and materials.setdefault(one.point[-1], one.material) != one.material:
             raise BrokenResult(f"{path} has another rubber at {one.point[-1]:g} degC than the results before it")
         first[one.point] = one

@@ -1,9 +1,6 @@
 "use strict";
 // The page: what is chosen, the controls that choose it, and everything drawn again when it changes.
 
-const held = JSON.parse(byId("payload").textContent);
-const temperatures = held.temperatures ?? []; // each has a payload of its own, with which the page is loaded anew
-const warmth = Math.max(0, temperatures.indexOf(temperatureSaid() ?? held.shown));
 const data = held.pages ? held.pages[warmth] : held;
 const severalScales = "total" in data.curves;
 const places = [...(severalScales ? ["total"] : []), ...(data.whole ? ["whole"] : []), ...data.scales.map(({ number }) => String(number))];
@@ -14,12 +11,6 @@ let drawn = Promise.resolve();
 // ---- What is chosen, and the address that says so ----
 
 const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, spot: null };
-
-/** The temperature that the address names, if there is such a one. */
-function temperatureSaid() {
-  const said = new URLSearchParams(window.location.hash.slice(1)).get("temperature");
-  return said === null ? undefined : temperatures.find((one) => Math.abs(one - Number(said)) <= 1e-9 * Math.abs(one));
-}
 
 /** The scene of highest friction at a place: what a visitor sees first. */
 function highestScene(place) {
@@ -46,14 +37,7 @@ function readAddress() {
 
 function address(warm = temperatures[warmth]) {
   const { place, view, pressure, speed } = chosen;
-  const end = warm === undefined ? "" : `&temperature=${warm}`;
-  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${end}`;
-}
-
-/** Show what is chosen at another temperature. */
-function reload(warm) {
-  window.history.replaceState(null, "", address(warm));
-  window.location.reload();
+  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${addressed(warm)}`;
 }
 
 /** Choose, within what there is, and draw; many choices in one frame are drawn once. */
@@ -94,13 +78,6 @@ function makeControls() {
     const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength, 2)}${THIN}mm`)] : [{ total: "Total", whole: "Whole road" }[place]];
     byId("places").append(option("place", place, ...label));
   }
-  if (temperatures.length > 1) {
-    const row = element("fieldset", { id: "temperatures", class: "segments" }, element("legend", {}, "Temperature (°C)"));
-    row.append(...temperatures.map((one, order) => option("temperature", order, plain(one))));
-    byId("choices").append(row);
-    row.querySelector(`[value="${warmth}"]`).checked = true;
-    row.addEventListener("change", (event) => { event.stopPropagation(); reload(temperatures[event.target.value]); });
-  }
   byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
   data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(order), plain(pressure))));
   byId("speed").max = data.speeds.length - 1;
@@ -115,12 +92,7 @@ function makeControls() {
     const [axis, step] = steps[event.key];
     choose({ [axis]: chosen[axis] + step });
   });
-  window.addEventListener("hashchange", () => {
-    readAddress();
-    const said = temperatureSaid();
-    if (said !== undefined && said !== temperatures[warmth]) reload(said);
-    else choose({});
-  });
+  window.addEventListener("hashchange", () => { readAddress(); if (!otherTemperature()) choose({}); });
   let width = window.innerWidth;
   window.addEventListener("resize", () => { if (window.innerWidth !== width) { width = window.innerWidth; choose({}); } });
 }
@@ -146,8 +118,7 @@ function showAbout() {
   const { plane, kinematics, accuracy, aspect, source, references } = data.about;
   const scales = data.scales.length === 1 ? "one scale" : `${data.scales.length} scales`;
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
-  const warm = temperatures.length ? `Rubber at ${plain(temperatures[warmth])}${THIN}°C. ` : "";
-  byId("about").textContent = `${warm}Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
+  byId("about").textContent = `${rubberAt()}Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
   byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. It covers neither the data of the rubber nor the choice of its law.`;
 }
@@ -274,8 +245,7 @@ async function begin() {
   const first = highestScene(places[0]);
   Object.assign(chosen, { pressure: first.pressure, speed: first.speed });
   readAddress();
-  showAbout();
-  makeControls();
+  for (const make of [showAbout, makeControls, makeTemperatures]) make();
   document.querySelector("main").hidden = false;
   try {
     numbers = await unpack(data.pictures);
