@@ -11,8 +11,7 @@ from rubfric import checks
 from rubfric.config.entries import Entry
 from rubfric.config.place import Place
 from rubfric.errors import InvalidInput
-from rubfric.rubber.material import Material
-from rubfric.rubber.shift import COLDEST, HOTTEST
+from rubfric.rubber.material import COLDEST, HOTTEST, Material
 from rubfric.rules import HERE, Choice, Integer, Number, Rule, rules
 
 _QUANTITIES = ("frequency", "temperature", "storage", "loss", "complex", "tan_delta", "phase")

@@ -19,6 +19,7 @@ from rubfric.config.measured import MeasuredRubber
 from rubfric.config.multiscale import WAYS
 from rubfric.config.place import Place
 from rubfric.config.rig import RigChoice
+from rubfric.config.temperature import ShiftChoice, degrees, rubber_of
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
@@ -37,6 +38,10 @@ class Grid(Entry):
     velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")]
     pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures on the top of the block.", "MPa")]
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
+    temperatures: Annotated[
+        tuple[float, ...],
+        Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(""), least=0),
+    ] = ()
 
 
 class PhasesChoice(Entry):
@@ -95,6 +100,13 @@ class FigureChoice(Entry):
     total_pressure: Annotated[
         float, Number("Nominal pressure of Fig. 7, the total over the scales; one of the grid's.", "MPa")
     ] = 0.0
+    temperature: Annotated[
+        float | None,
+        degrees(
+            "Temperature of the figures that show one, of claims, aspect study, marches and virtual rig; one of the "
+            "grid's, and the nearest to the rubber's reference where none is given."
+        ),
+    ] = None
     fields: Fields = Fields()
 
 
@@ -181,7 +193,7 @@ class _RubberEntry(Entry):
 def _sound(rubber: Any) -> Any:
     """Refuse a rubber whose entries do not go together."""
     try:
-        Material(name="x", **rubber.given())
+        rubber_of("x", rubber.given())
     except InvalidInput as error:
         raise InvalidInput(*(fault.replace("rubbers.x.", f"{HERE}.") for fault in error.faults)) from None
     return rubber
@@ -223,6 +235,7 @@ else:
             [name for name in rules(Material) if name != "name"],
             {one.name: one.default for one in fields(Material) if one.default is not MISSING},
         ),
+        shift=(ShiftChoice | None, None),
         __validators__={"_sound": model_validator(mode="after")(_sound)},
     )
     Scale = create_model(

@@ -19,7 +19,7 @@ OWN = frozenset(("rubber", "rubbers", "road", "roads", "grid"))
 EXTRAS = {
     "aspect_study": ("scales", "pressures"),
     "transient": ("scale", "velocities", "pressure"),
-    "figures": ("total_pressure", "fields"),
+    "figures": ("total_pressure", "temperature", "fields"),
     "rig": ("pressures", "speeds"),
     "claims": (),
 }

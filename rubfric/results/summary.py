@@ -19,9 +19,10 @@ def summary(result: xr.Dataset) -> str:
     """Return a result as text: the friction first, then contact, mesh and kinematics, then any warnings."""
     attributes = result.attrs
     friction = float(result["friction_coefficient"])
+    warm = f", {attributes['temperature']:g} degC" if "temperature" in attributes else ""
     lines = [
         f"{attributes['rubber']} on {_road(attributes)}, "
-        f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa, "
+        f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa{warm}, "
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
         _line("friction coefficient", f"{friction:.5g} +- {float(result['friction_coefficient_error']):.1g}"),

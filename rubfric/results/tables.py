@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 import xarray as xr
@@ -13,6 +13,7 @@ from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.scalars import OF_MEASURED
 from rubfric.results.selection import RUBBER_ERROR, check_variables
+from rubfric.results.temperature import AXIS, COLUMN, at_temperature
 
 # variable: heading
 _COLUMNS = {
@@ -44,7 +45,7 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
-    """Return all scenes of one scale, by aspect, pressure and speed.
+    """Return all scenes of one scale, by temperature where there are several, aspect, pressure and speed.
 
     Parameters
     ----------
@@ -60,10 +61,21 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     """
     columns = [name for name in _COLUMNS if name not in OF_MEASURED or name in campaign]
     check_variables(campaign, *columns)
+    if AXIS in campaign.dims:
+        return by_temperature(
+            {one: scale_table(at_temperature(campaign, one), scale) for one in campaign[AXIS].values.tolist()}
+        )
     chosen = campaign[columns].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
     return table.reset_index()[["velocity", "pressure", "aspect", *columns]].rename(columns=_AXES | _COLUMNS)
+
+
+def by_temperature(tables: Mapping[float, pd.DataFrame]) -> pd.DataFrame:
+    """Return tables, each of a temperature (degC), as one that has it in its third column."""
+    for temperature, table in tables.items():
+        table.insert(2, COLUMN, temperature)
+    return pd.concat(tables.values(), ignore_index=True)
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool = True) -> pd.DataFrame:

@@ -14,6 +14,8 @@ from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
 from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, check_variables, refusals
+from rubfric.results.tables import by_temperature
+from rubfric.results.temperature import at_temperature
 from rubfric.results.whole_road import WholeRoad
 
 # What the note says where the whole road would take minutes in finite strain.
@@ -41,6 +43,26 @@ class _Total(NamedTuple):
     def error(self) -> float:
         """The whole error; random phases count where they were drawn, the rubber's data where it was measured."""
         return self.numerical + self.coupling + sum(part for part in (self.road, self.rubber) if not np.isnan(part))
+
+
+def total_tables(
+    campaign: xr.Dataset, whole: xr.Dataset | None, roads: Mapping[float | None, WholeRoad]
+) -> pd.DataFrame:
+    """Return ``total_table`` of every temperature as one table, which has it in its third column.
+
+    Parameters
+    ----------
+    campaign, whole
+        As for ``total_table``, over temperature too.
+    roads : mapping of float to WholeRoad
+        By temperature, degC; a rubber as it is given has one, under None, and no such column.
+    """
+    tables = {
+        one: total_table(at_temperature(campaign, one), None if whole is None else at_temperature(whole, one), road)
+        for one, road in roads.items()
+    }
+    warm = {one: table for one, table in tables.items() if one is not None}
+    return by_temperature(warm) if warm else tables[None]
 
 
 def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad) -> pd.DataFrame:

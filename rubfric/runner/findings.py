@@ -77,7 +77,12 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
 
 
 def _point(row: dict[str, str]) -> str:
-    return f"at {float(row['velocity_mm_per_s']):g} mm/s, {float(row['pressure_MPa']):g} MPa"
+    return f"at {float(row['velocity_mm_per_s']):g} mm/s, {float(row['pressure_MPa']):g} MPa{_warm(row)}"
+
+
+def _warm(row: dict[str, str]) -> str:
+    """Return the temperature of a row in words; nothing where there is none."""
+    return f", {float(row['temperature_degC']):g} degC" if row.get("temperature_degC") else ""
 
 
 def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
@@ -93,7 +98,7 @@ def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
 def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
     scale = os.path.splitext(os.path.basename(path))[0].rpartition("_")[2]
     height = f"height/width {row['aspect']}"
-    return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa, {height}"
+    return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa{_warm(row)}, {height}"
 
 
 def highest(path: str | os.PathLike[str]) -> str:
@@ -105,7 +110,7 @@ def highest(path: str | os.PathLike[str]) -> str:
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa ({WAYS[top['way']]})"
+        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({WAYS[top['way']]})"
     )
 
 

@@ -14,7 +14,7 @@ from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.fitted import Measured
-from rubfric.rubber.material import PLANES, Material
+from rubfric.rubber.material import COLDEST, HOTTEST, PLANES, Material
 from rubfric.rules import Choice, Integer, Number, check_fields
 from rubfric.scene.numerics import Numerics
 
@@ -24,7 +24,7 @@ ALL = "all"
 # Height over width of a block, unless another is given: that of the paper's campaign.
 ASPECT = 0.75
 # What most scenes are without; it is left out of the parameters then.
-_OPTIONAL = ("measured",)
+_OPTIONAL = ("temperature", "measured")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
 
@@ -66,6 +66,8 @@ class Scene:
         Accuracy and resolution.
     kinematics : {"small", "finite", "auto"}
         Small strain, finite strain, or small strain only where that is accurate enough.
+    temperature : float, optional
+        Of the rubber, degC; ``material`` is the rubber at it. None for a rubber that is known at one temperature only.
     measured : Measured, optional
         What the measurement leaves open of a rubber that was fitted to one.
     """
@@ -79,6 +81,7 @@ class Scene:
     plane: Annotated[str, Choice(words=PLANES)] = "stress"
     numerics: Numerics = field(default_factory=Numerics)
     kinematics: Annotated[str, Choice(words=KINEMATICS)] = "auto"
+    temperature: Annotated[float | None, Number(unit="degC", low=COLDEST, high=HOTTEST)] = None
     measured: Measured | None = None
 
     def __post_init__(self) -> None:
@@ -94,10 +97,14 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``, or ``all_v100_...``; one scene, one name."""
+        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``, or ``all_v100_...``; one scene, one name.
+
+        With a temperature ``scale1_v100_p5_T20_aspect0.75_stress``.
+        """
         scale = self.scale if self.scale == ALL else f"scale{self.scale}"
-        numbers = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
-        return "{}_v{}_p{}_aspect{}_{}".format(scale, *numbers, self.plane)
+        velocity, pressure, aspect = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
+        warm = "" if self.temperature is None else f"_T{checks.written(self.temperature)}"
+        return f"{scale}_v{velocity}_p{pressure}{warm}_aspect{aspect}_{self.plane}"
 
     @property
     def height(self) -> float:

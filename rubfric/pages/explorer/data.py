@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -50,6 +50,7 @@ def payload(
     aspect: float,
     road: str,
     whole: xr.Dataset | None = None,
+    share: float = 1.0,
 ) -> dict[str, Any]:
     """Return all that the page shows.
 
@@ -68,6 +69,8 @@ def payload(
         Name of the road.
     whole : xarray.Dataset, optional
         The collection of the scenes of the whole road, results of which may be among ``results``.
+    share : float
+        Of the room for pictures, where several payloads share a page.
 
     Returns
     -------
@@ -94,7 +97,7 @@ def payload(
         curves[WHOLE] = _curve(placed[_FRICTION].values, placed[_ERROR].values)
         scenes[WHOLE] = _cells(placed)
         found["refusals"] = reasons(whole, axes)
-    packed, energies, pictured = _pictures(results, axes, scenes, aspect)
+    packed, energies, pictured = _pictures(results, axes, scenes, aspect, share * _ROOM)
     if whole is not None:
         found[WHOLE] = about(whole, pictured)
     return {
@@ -110,6 +113,21 @@ def payload(
         "pictures": packed,
         **found,
     }
+
+
+def together(payloads: Mapping[float | None, dict[str, Any]], shown: float | None) -> dict[str, Any]:
+    """Return the payload of a page that shows one of several temperatures.
+
+    Parameters
+    ----------
+    payloads : mapping of float to dict
+        By temperature, degC; one under None stays as it is.
+    shown : float or None
+        The temperature with which the page begins.
+    """
+    if None in payloads:
+        return payloads[None]
+    return {"temperatures": list(payloads), "shown": shown, "pages": list(payloads.values())}
 
 
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
@@ -175,7 +193,7 @@ def _numbers(field: xr.Dataset) -> dict[str, str]:
 
 
 def _pictures(
-    results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float
+    results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float, room: float
 ) -> tuple[str, list[float], xr.Dataset | None]:
     """Add picture, reason and warnings of every result to its scene; return the packed numbers and their energies.
 
@@ -185,7 +203,7 @@ def _pictures(
     store, low, high, whole = Store(), [], [], None
     weights = {name: WIDER if name == WHOLE else 1 for name in scenes}
     count = sum(weights[name] * (scene is not None) for name, rows in scenes.items() for row in rows for scene in row)
-    share = min(1.0, math.sqrt(_ROOM / count))
+    share = min(1.0, math.sqrt(room / count))
     most = [max(fewest, int(share * size)) for size, fewest in zip(_MOST, _FEWEST, strict=True)]
     for result in results:
         scene = _found(result, axes, scenes, aspect)

@@ -13,6 +13,7 @@ import yaml
 
 from rubfric import InvalidInput, Scene, load
 from rubfric.config import fitting
+from rubfric.config.campaign import Campaign
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, placed, read_yaml
@@ -92,6 +93,8 @@ def test_scenes_have_the_fitted_rubber_and_what_it_leaves_open(mine: Path) -> No
         ({"poissons_ratio": 0.4, "bulk_modulus": 2000}, "has both poissons_ratio and bulk_modulus"),
         ({"bulk_modulus": 2}, "rubbers.mine: the bulk modulus is 2 MPa, but must be at least"),
         ({"units": {"storage": "furlong"}}, "rubbers.mine: "),
+        ({"columns": {"storage": "E"}}, "under columns"),
+        ({"reference_temperature": 90}, "rubbers.mine: "),
         ({"lw": 1}, "rubbers.mine has the unknown key 'lw'; allowed are measurements, reference_temperature"),
     ],
 )
@@ -148,6 +151,25 @@ def test_at_another_temperature_it_is_the_rubber_fitted_there() -> None:
         assert sample.times[0] / own.times[0] == pytest.approx(
             material.relaxation_times[0] / warm.material.relaxation_times[0], rel=0.05
         )
+
+
+def test_temperatures_of_the_grid_are_those_of_its_own_shift_factors(mine: Path) -> None:
+    campaign = load(CONFIG, mine, {"grid": {"temperatures": [-10, 20]}})
+    assert campaign.fitted is not None
+    scenes = [campaign.scene(1, 100, 0.5, temperature=one) for one in (-10, 20)]
+    assert [(scene.material, scene.measured) for scene in scenes] == [campaign.fitted.at(one) for one in (-10.0, 20.0)]
+    assert any("from 3.5e-07 rad/s up at -10 degC, measured from 0.006" in line for line in _slow(campaign))
+    with pytest.raises(InvalidInput, match=r"grid\.temperatures has -150 degC, but the WLF equation holds above"):
+        load(CONFIG, mine, {"grid": {"temperatures": [-150, 20]}})
+    master = {"data": "master", "measurements": "master.csv"}
+    rows = "\n".join(f"{10.0**n},{2.0 + n / (9.0 - n)},{0.1 + 0.05 * n}" for n in range(8))
+    Path("master.csv").write_text(f"frequency (rad/s),E' (MPa),E'' (MPa)\n{rows}\n")
+    with pytest.raises(InvalidInput, match="or moduli measured at several temperatures"):
+        load(CONFIG, {"rubber": "m", "rubbers": {"m": master}, "grid": {"temperatures": [20]}})
+
+
+def _slow(campaign: Campaign) -> list[str]:
+    return understood(replace(campaign, velocities=(1e-8, 1.0)), own=True)
 
 
 def test_schema_takes_either_kind_of_rubber() -> None:
