@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -56,11 +57,18 @@ def fitted_rubber(name: str, entry: MeasuredRubber, kept: str | os.PathLike[str]
     try:
         found = _fit(digest, name, entry)
     except InvalidInput as error:
-        raise InvalidInput(*(f"{key}: {fault}" for fault in error.faults)) from error
+        raise InvalidInput(*(f"{key}: {_in_config(fault)}" for fault in error.faults)) from error
     if place:
         with whole(place) as part:
             part.write_text(json.dumps({"digest": digest, "rubber": found.parameters()}), encoding="utf-8")
     return replace(found, source=entry.measurements)
+
+
+def _in_config(words: str) -> str:
+    """Return words that name options of ``rubfric rubber fit`` with the keys that do the same here."""
+    words = words.replace(" in the YAML file of --columns", "").replace("--master", "data: master")
+    words = re.sub(r"--(modulus|law) (\w+)", r"\1: \2", words)
+    return re.sub(r"--([a-z-]+)", lambda found: found[1].replace("-", "_"), words)
 
 
 def arguments(name: str, entry: MeasuredRubber) -> tuple[Any, ...]:
@@ -98,7 +106,11 @@ def _fit(digest: str, name: str, entry: MeasuredRubber) -> FittedRubber:
         from rubfric.dma.fitted import fitted
 
         found = fitted(*arguments(name, entry))
-        known[name] = replace(found, material=replace(found.material, density=entry.density))
+        known[name] = replace(
+            found,
+            material=replace(found.material, density=entry.density),
+            warnings=tuple(map(_in_config, found.warnings)),
+        )
     return known[name]
 
 

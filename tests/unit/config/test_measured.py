@@ -92,6 +92,8 @@ def test_scenes_have_the_fitted_rubber_and_what_it_leaves_open(mine: Path) -> No
         ({"poissons_ratio": 0.4, "bulk_modulus": 2000}, "has both poissons_ratio and bulk_modulus"),
         ({"bulk_modulus": 2}, "rubbers.mine: the bulk modulus is 2 MPa, but must be at least"),
         ({"units": {"storage": "furlong"}}, "rubbers.mine: "),
+        ({"columns": {"storage": "E"}}, "under columns"),
+        ({"reference_temperature": 90}, "rubbers.mine: "),
         ({"lw": 1}, "rubbers.mine has the unknown key 'lw'; allowed are measurements, reference_temperature"),
     ],
 )
