@@ -11,7 +11,7 @@ from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.layer import excitation_frequency
 from rubfric.results.rubber_error import beyond, spread
-from rubfric.results.selection import RUBBER_ERROR
+from rubfric.results.selection import BEYOND, RUBBER_ERROR
 
 # name: (unit, long name); the scalars of every result, in the order in which they are shown
 SCALARS: dict[str, tuple[str, str]] = {
@@ -50,7 +50,7 @@ OF_MEASURED = {
         "error of the friction coefficient from the rubber's data, absolute: half of the 95 % band that their scatter "
         "leaves, where samples were asked for, and all that comes from frequencies beyond those measured",
     ),
-    "friction_beyond_window": ("1", "share of friction from frequencies beyond those at which the rubber was measured"),
+    BEYOND: ("1", "share of friction from frequencies beyond those at which the rubber was measured"),
 }
 
 
@@ -82,7 +82,7 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
     if scene.measured:
         outside = sum(beyond(solution))
         measured[RUBBER_ERROR] = abs(energies.stress_power) * (spread(scene) + outside)
-        measured["friction_beyond_window"] = outside
+        measured[BEYOND] = outside
     frequency = excitation_frequency(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
     return {
         "friction_coefficient": energies.stress_power,

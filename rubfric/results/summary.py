@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from rubfric.results.selection import RUBBER_ERROR
+from rubfric.results.selection import BEYOND, RUBBER_ERROR
 
 _WIDTH = 34
 _COVERED = "mesh, solver, kinematics; not other phases of the waves, the rubber's data or its finite-strain law"
@@ -52,7 +52,7 @@ def _rubber_error(result: xr.Dataset) -> list[str]:
         return []
     samples = len((json.loads(result.attrs["scene_parameters"])["measured"])["samples"])
     scatter = f"scatter by {samples} samples" if samples else "scatter not asked for (uncertainty)"
-    share = f"{100.0 * float(result['friction_beyond_window']):.2g} % from beyond the measured frequencies"
+    share = f"{100.0 * float(result[BEYOND]):.2g} % from beyond the measured frequencies"
     return [_line("  from the rubber's data", f"+- {float(result[RUBBER_ERROR]):.1g} ({scatter}; {share})")]
 
 

@@ -12,7 +12,7 @@ from rubfric.checksums import AGAIN, check_signature, sign
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
 from rubfric.results.scalars import OF_MEASURED
-from rubfric.results.selection import RUBBER_ERROR, check_variables
+from rubfric.results.selection import BEYOND, RUBBER_ERROR, check_variables
 from rubfric.results.temperature import AXIS, COLUMN, at_temperature
 
 # variable: heading
@@ -20,7 +20,7 @@ _COLUMNS = {
     "friction_coefficient": "friction_coefficient",
     "friction_coefficient_error": "friction_coefficient_error",
     RUBBER_ERROR: RUBBER_ERROR,
-    "friction_beyond_window": "friction_beyond_window",
+    BEYOND: BEYOND,
     "friction_coefficient_dissipation": "friction_coefficient_dissipation",
     "friction_coefficient_contact": "friction_coefficient_contact",
     "energy_closure": "energy_closure",

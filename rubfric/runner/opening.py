@@ -18,6 +18,8 @@ from rubfric.scene.scene import Scene
 # finite strain at 1 %, of its four marches, and of 42 scenes of the whole road, reduced to 1 %. Small strain and other
 # accuracies by the factors measured there.
 _SCENE, _WHOLE, _MARCH, _TABLE, _FIGURE, _OTHER = 0.56, 10.0, 17.0, 0.5, 0.9, 1.0
+# The fit of a rubber with 200 bootstrap samples, and its page.
+_FIT = 5.0
 _SMALL, _STEPS = 0.05, 64 * 64 * 12
 # Temperatures of which the moduli are named.
 _MOST_TEMPERATURES = 5
@@ -47,6 +49,7 @@ class Costs:
                 "scene": _SCENE * scene,
                 "whole_scene": _WHOLE * _weight(whole) if whole else 0.0,
                 "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
+                "rubber_fit": _FIT,
                 "reading": _SCENE * reading * _factor(draft) * 0.3,
             }
         )

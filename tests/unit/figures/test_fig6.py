@@ -55,9 +55,13 @@ def test_bands_hold_what_the_data_of_a_measured_rubber_leave(
     campaign = make_campaign()
     plain = fig6.draw(campaign, 0.75)
     campaign["friction_coefficient_rubber_error"] = 0.1 * campaign["friction_coefficient"]
+    campaign["friction_beyond_window"] = (campaign["friction_coefficient"] * 0.0).where(campaign["velocity"] < 1e3, 0.5)
     figure = fig6.draw(campaign, 0.75)
     assert any("the rubber's data alone\nat most 10" in text for text in words(figure))
-    assert not any("rubber" in text for text in words(plain))
+    assert not any("rubber" in text or "beyond" in text for text in words(plain))
+    assert sum("beyond the measured" in text for text in words(figure)) == 1
+    crosses = [line for line in figure.axes[0].get_lines() if line.get_gid() == "beyond"]
+    assert [list(cross.get_xdata()) for cross in crosses] == [[1e3, 1e4]] * 3
     heights = [bands(one.axes[0])[0].get_paths()[0].get_extents().height for one in (plain, figure)]
     assert heights[0] < heights[1]
 
