@@ -261,7 +261,7 @@ class FiniteBlock:
         """Return what stands one column of the block to the right of the nodes of a layer, or to the left."""
         if layer.share == 1:
             return np.roll(nodes, 1 if back else -1, axis=-1)
-        turn = self.turn[: layer.harmonics]
+        turn = layer.kernel(self.turn)
         return convolve(turn.conj() if back else turn, nodes)
 
     def top_load(self, pressure: float) -> Real:
@@ -305,10 +305,14 @@ class FiniteBlock:
         stiffness = Stiffness(state, curvature)
         if state.deformation.area.size > _HELD:
             return stiffness
-        parts = [stiffness.tangent(rows) for rows in self.row_slices()]
-        gathered = ([getattr(part, field.name) for part in parts] for field in dataclasses.fields(Tangent))
-        held = parts[0] if len(parts) == 1 else Tangent(*(np.concatenate(arrays, axis=-2) for arrays in gathered))
-        return dataclasses.replace(stiffness, held=held)
+        held: dict[str, Real] = {}
+        for rows in self.row_slices():
+            for name, part in vars(stiffness.tangent(rows)).items():
+                whole = part.shape[-2] == self.shape[0]
+                held.setdefault(name, part if whole else np.empty((*part.shape[:-2], *self.shape)))
+                if not whole:
+                    held[name][..., rows, :] = part
+        return dataclasses.replace(stiffness, held=Tangent(**held))
 
     def row_slices(self) -> Iterator[slice]:
         """Yield the rows of cells a few at a time, all at once on small meshes, so that work takes little memory."""

@@ -102,6 +102,15 @@ class Circulant:
             Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True))) for parts in layers
         ]
         del layers
+        for layer in self._layers[1:]:  # which see no last harmonic of the nodes below them
+            layer.cells[:2, :, 0, -1] = layer.cells[:, :2, 0, -1] = 0.0
+            for name in (
+                "thickness_of_displacement",
+                "force_of_thickness",
+                "volume_of_displacement",
+                "force_of_volume",
+            ):
+                getattr(layer, name)[:2, ..., 0, -1] = 0.0
         self._factors = self._factorise([layer.cells for layer in self._layers], pressure)
         self._layers = [layer._replace(cells=layer.cells[..., :0]) for layer in self._layers]  # no longer needed
         self._surface_response = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
@@ -135,6 +144,7 @@ class Circulant:
                 pushed += (known.force_of_thickness * thickness[0]).sum(axis=1)
                 thickness = known.thickness_compliance * thickness - known.thickness_of_volume * volume
             below, above = slice(layer.rows.start, layer.rows.stop), slice(layer.rows.start + 1, layer.rows.stop + 1)
+            pushed *= layer.share  # sums over fewer points
             right.force[:, below, : layer.harmonics] -= pushed[:2]
             right.force[:, above, : layer.harmonics] -= pushed[2:]
             right.thickness.append(thickness)

@@ -48,7 +48,7 @@ def condensed(finite: FiniteBlock, stiffness: Stiffness, part: Layer) -> Condens
     weighed = slope.conj() * finite.quadrature.weights.T[:, part.rows, None]
     points = stiffness.tangent(part.stored)
     volume = part.mean(points.volume)[..., None]
-    bulk = part.mean(stiffness.curvature[..., part.stored, :])[..., None] + finite.bulk_kernel[: part.harmonics]
+    bulk = part.mean(stiffness.curvature[..., part.stored, :])[..., None] + part.kernel(finite.bulk_kernel)
     moduli = _moduli(finite, points, part)
     stress_by_pressure, volume_by_gradient = volume, volume
     volume_stiffness: Complex = np.ones((1, *bulk.shape[1:2], 1), dtype=complex)  # s
@@ -112,14 +112,14 @@ def _moduli(finite: FiniteBlock, points: Tangent, part: Layer) -> Complex:
     """
     local, by_driving, inverse = map(part.mean, (points.local, points.by_driving, points.inverse))
     relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
-    moduli: Complex = relaxing[..., None] * -finite.shear_kernel[: part.harmonics]
+    moduli: Complex = relaxing[..., None] * -part.kernel(finite.shear_kernel)
     moduli += local[..., None]
     return moduli
 
 
 def _slope(finite: FiniteBlock, part: Layer) -> Complex:
     """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
-    turn = finite.turn[: part.harmonics]
+    turn = part.kernel(finite.turn)
     nodes = finite.quadrature.gradients[part.rows].transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
     slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
     return slope

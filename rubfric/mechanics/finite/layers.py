@@ -51,6 +51,14 @@ class Layer:
         """How many harmonics the layer has, the mean among them."""
         return self.columns // 2 + 1
 
+    def kernel(self, harmonics: Complex) -> Complex:
+        """Return the part of a kernel that the layer has harmonics for; the last is its own conjugate."""
+        if self.share == 1:
+            return harmonics
+        own = harmonics[: self.harmonics].copy()
+        own[-1] = own[-1].real
+        return own
+
     def of(self, field: Real) -> Real:
         """Return the layer's rows of cells of a field, shape (..., rows, columns), as a view."""
         return self._open(field[..., self.stored, :])

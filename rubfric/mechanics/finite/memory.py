@@ -162,7 +162,7 @@ def convolve_layers(layers: Sequence[Layer], kernel: Complex, field: Real) -> Re
         return convolve(kernel, field)
     answer = np.empty_like(field)
     for layer in layers:
-        layer.of(answer)[:] = convolve(kernel[: layer.harmonics], layer.of(field))
+        layer.of(answer)[:] = convolve(layer.kernel(kernel), layer.of(field))
     return answer
 
 
