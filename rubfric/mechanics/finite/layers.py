@@ -23,7 +23,7 @@ from rubfric.mechanics.block.block import Block
 # A layer begins where the harmonic that it leaves out first has decayed by exp(-_DECAY).
 _DECAY = 10.0
 # Fewest columns of a layer, and fewest cells of a block that is worth dividing.
-_FEWEST_COLUMNS, _FEWEST_CELLS = 32, 8192
+_FEWEST_COLUMNS, _FEWEST_CELLS = 32, 4096
 
 
 @dataclass(frozen=True)
