@@ -7,6 +7,7 @@ from scipy import fft
 
 from rubfric.arrays import Complex, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
+from rubfric.mechanics.finite.layers import even_cells, even_nodes
 
 
 def prolong(fields: Fields, old: FiniteBlock, new: FiniteBlock) -> Fields:
@@ -29,6 +30,22 @@ def prolong(fields: Fields, old: FiniteBlock, new: FiniteBlock) -> Fields:
         layer.nodes_of(nodes)[:] = _on_columns(_over_height(known, below, heights, layer.columns), layer.columns)
     return Fields(
         nodes, _between_points(fields.log_thickness, old, new), _between_points(fields.volume[None], old, new)[0]
+    )
+
+
+def on_all_columns(fields: Fields, finite: FiniteBlock) -> Fields:
+    """Return fields of a block with layers on all columns of all of its rows.
+
+    Parameters
+    ----------
+    fields : Fields
+    finite : FiniteBlock
+        The block of the fields.
+    """
+    return Fields(
+        even_nodes(finite.layers, fields.displacement),
+        even_cells(finite.layers, fields.log_thickness),
+        even_cells(finite.layers, fields.volume),
     )
 
 

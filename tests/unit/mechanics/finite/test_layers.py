@@ -16,6 +16,7 @@ from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.energy import evaluate_finite, nodal_density
 from rubfric.mechanics.finite.layers import Layer, divided, even_cells, even_nodes, undivided
 from rubfric.mechanics.finite.linearised import scaling
+from rubfric.mechanics.finite.march import FiniteStepper
 from rubfric.mechanics.finite.prolongation import prolong
 from rubfric.mechanics.finite.steady import FiniteSolution, FiniteSolver
 from rubfric.mechanics.steady.resolution import Resolution
@@ -152,6 +153,11 @@ def test_friction_is_that_of_all_columns(plane: str, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("rubfric.mechanics.finite.steady.divided", lambda block, stretch: undivided(block))
     whole = solved()
     assert len(whole.finite.layers) == 1
+    started = [FiniteStepper(scene, solution.block) for solution in (found, whole)]
+    for stepper, solution in zip(started, (found, whole), strict=True):
+        stepper.slide_steadily(solution)
+    assert started[0].state.stored == pytest.approx(started[1].state.stored, rel=1e-5)
+    np.testing.assert_allclose(started[0].state.behind, started[1].state.behind, atol=1e-4)
     one, other = evaluate_finite(found), evaluate_finite(whole)
     for route in ("stress_power", "dissipation", "contact"):
         assert getattr(one, route) == pytest.approx(getattr(other, route), rel=3e-5), route
