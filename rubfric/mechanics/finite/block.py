@@ -226,15 +226,19 @@ class FiniteBlock:
             nodes = displacement[:, : layer.stored.stop + 1]
             if layer.share > 1:
                 nodes = np.concatenate((restricted(top, layer.columns), layer.nodes_of(displacement)), axis=1)
-            left, right = nodes.swapaxes(0, 1), self._turned(layer, nodes).swapaxes(0, 1)
-            rows = len(left) - 1
-            corners = np.empty((rows, 4, 2, layer.columns))
-            corners[:, 0], corners[:, 1], corners[:, 2], corners[:, 3] = left[:-1], right[:-1], left[1:], right[1:]
+            rows, nodes = nodes.shape[1] - 1, nodes.swapaxes(0, 1)
+            corners = np.empty((rows, 2, 2, 2, layer.columns))  # row, level, side, component
+            corners[:, 0, 0], corners[:, 1, 0] = nodes[:-1], nodes[1:]
+            if layer.share == 1:
+                corners[:, :, 1, :, :-1], corners[:, :, 1, :, -1] = corners[:, :, 0, :, 1:], corners[:, :, 0, :, 0]
+            else:
+                right = convolve(layer.kernel(self.turn), nodes)
+                corners[:, 0, 1], corners[:, 1, 1] = right[:-1], right[1:]
             slopes = self._to_points[layer.rows] @ corners.reshape(rows, 4, -1)
             # From (row, point, derivative, component, column).
             ordered = slopes.reshape(rows, self.points, 2, 2, layer.columns).transpose(3, 2, 1, 0, 4)
             layer.of(gradient).reshape(ordered.shape)[:] = ordered
-            top = nodes[:, -1:]
+            top = nodes[-1:].swapaxes(0, 1)
         return gradient
 
     def forces(self, stresses: Real) -> Real:
@@ -250,19 +254,16 @@ class FiniteBlock:
             nodes = nodal[:, : rows + 1] if layer.share == 1 else np.zeros((2, rows + 1, layer.columns))
             for level, part in ((0, nodes[:, :-1]), (2, nodes[:, 1:])):
                 part += corners[level]
-                part += self._turned(layer, corners[level + 1], back=True)
+                if layer.share == 1:
+                    part[..., 1:] += corners[level + 1][..., :-1]
+                    part[..., 0] += corners[level + 1][..., -1]
+                else:
+                    part += convolve(layer.kernel(self.turn).conj(), corners[level + 1])
             if layer.share > 1:
                 top += spread(nodes[:, :1], top.shape[-1])
                 layer.nodes_of(nodal)[:] = nodes[:, 1:]
             top = layer.nodes_of(nodal)[:, -1:]
         return nodal
-
-    def _turned(self, layer: Layer, nodes: Real, back: bool = False) -> Real:
-        """Return what stands one column of the block to the right of the nodes of a layer, or to the left."""
-        if layer.share == 1:
-            return np.roll(nodes, 1 if back else -1, axis=-1)
-        turn = layer.kernel(self.turn)
-        return convolve(turn.conj() if back else turn, nodes)
 
     def top_load(self, pressure: float) -> Real:
         """Return the forces of a nominal pressure in MPa on the uppermost stored row of nodes, shape (columns,)."""

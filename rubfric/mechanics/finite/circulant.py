@@ -21,7 +21,7 @@ from scipy.linalg import lapack
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness
 from rubfric.mechanics.finite.condensation import Condensed, cell_mean, condensed
-from rubfric.mechanics.finite.layers import node_fields, node_harmonics
+from rubfric.mechanics.finite.layers import gathered, node_fields, node_harmonics
 
 # Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
 _BAND = 3
@@ -144,7 +144,8 @@ class Circulant:
                 pushed += (known.force_of_thickness * thickness[0]).sum(axis=1)
                 thickness = known.thickness_compliance * thickness - known.thickness_of_volume * volume
             below, above = slice(layer.rows.start, layer.rows.stop), slice(layer.rows.start + 1, layer.rows.stop + 1)
-            pushed *= layer.share  # sums over fewer points
+            if layer.share > 1:
+                pushed *= layer.share  # sums over fewer points
             right.force[:, below, : layer.harmonics] -= pushed[:2]
             right.force[:, above, : layer.harmonics] -= pushed[2:]
             right.thickness.append(thickness)
@@ -181,19 +182,20 @@ class Circulant:
         spectrum = self._solve(ordered).transpose(2, 1, 0)
         if not self._finite.history.anchored:
             spectrum[0, :, 0] -= spectrum[0, 0, 0]
-        points, block = self._finite.points, self._finite.block
-        log_thickness = np.empty((self._finite.unknowns - 4, points, *self._finite.shape))
-        volume = np.empty((points if block.pointwise else 1, *self._finite.shape))
-        for number, (layer, known) in enumerate(zip(self._finite.layers, self._layers, strict=True)):
-            nodes = spectrum[:, layer.rows.start : layer.rows.stop + 1, : layer.harmonics] / layer.share
+        layers, thickness, volume = self._finite.layers, [], []
+        for number, (layer, known) in enumerate(zip(layers, self._layers, strict=True)):
+            nodes = spectrum[:, layer.rows.start : layer.rows.stop + 1, : layer.harmonics]
             corners = np.concatenate((nodes[:, :-1], nodes[:, 1:]))[:, None]
+            if layer.share > 1:
+                corners /= layer.share
             dilatation = (known.volume_of_displacement * corners).sum(axis=0)
-            layer.of(volume)[:] = fft.irfft(right.volume[number] + dilatation, layer.columns, axis=-1)
-            if len(log_thickness):
-                thickness = right.thickness[number] - (known.thickness_of_displacement * corners).sum(axis=0)
-                thickness -= known.thickness_of_volume * dilatation
-                layer.of(log_thickness)[:] = fft.irfft(thickness, layer.columns, axis=-1)
-        return Fields(node_fields(self._finite.layers, spectrum), log_thickness, volume)
+            volume.append(fft.irfft(right.volume[number] + dilatation, layer.columns, axis=-1))
+            caused = right.thickness[number]
+            if len(caused):
+                caused = caused - (known.thickness_of_displacement * corners).sum(axis=0)
+                caused -= known.thickness_of_volume * dilatation
+            thickness.append(fft.irfft(caused, layer.columns, axis=-1))
+        return Fields(node_fields(layers, spectrum), gathered(thickness), gathered(volume))
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
@@ -204,6 +206,8 @@ class Circulant:
             found, info = lapack.zgbtrs(part.factors, _BAND, _BAND, sought, part.pivots, trans=1 if transposed else 0)
             if info:
                 raise ValueError(f"zgbtrs: argument {-info} has an illegal value")
+            if len(self._factors) == 1:
+                return np.asarray(found).reshape(answer.shape)
             answer[part.harmonics, : part.rows + 1] = np.asarray(found).reshape(-1, part.rows + 1, 2)
         return answer
 

@@ -122,6 +122,15 @@ def divided(block: Block, stretch: float) -> tuple[Layer, ...]:
     return tuple(layers)
 
 
+def gathered(parts: Sequence[Real]) -> Real:
+    """Return the fields of points of one layer after another, shape (..., rows, columns), as one array."""
+    if len(parts) == 1:
+        return parts[0]
+    columns = parts[0].shape[-1]
+    stored = ((part.shape[-2] * part.shape[-1] // columns, part) for part in parts)
+    return np.concatenate([part.reshape(*part.shape[:-2], rows, columns) for rows, part in stored], axis=-2)
+
+
 def restricted(nodes: Real, columns: int) -> Real:
     """Return the lower harmonics of rows of nodes on fewer columns.
 
