@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import csv
+import importlib
 import math
 import os
 import re
@@ -21,7 +22,7 @@ DECIMALS = {"point": ".", "comma": ","}
 # Fewest columns, most lines above the headings, and the share of rows that may be unreadable.
 _FEWEST, _PREAMBLE, _UNREADABLE = 3, 300, 0.05
 _NUMBER = re.compile(r"^[+-]?(\d+([.,]\d*)*|[.,]\d+)([eE][+-]?\d+)?$")
-_SPREADSHEETS = {b"\xd0\xcf\x11\xe0": "an Excel file (.xls)", b"PK\x03\x04": "an Excel file (.xlsx) or an archive"}
+_WORKBOOK, _ARCHIVE = b"\xd0\xcf\x11\xe0", b"PK\x03\x04"
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,8 @@ def read_text(path: str, separator: str | None = None, decimal: str | None = Non
     Raises
     ------
     InvalidInput
-        For a file that is no text, has no headings above numbers, or numbers that may be read in two ways.
+        For a file that is no text and no workbook (.xls, with the extra ``xls``), has no headings above numbers, or
+        numbers that may be read in two ways.
     FileNotFoundError
         For a missing file.
     """
@@ -90,13 +92,32 @@ def _decoded(path: str) -> str:
         content = stream.read()
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return content.decode("utf-16", errors="replace")
-    what = next((name for mark, name in _SPREADSHEETS.items() if content.startswith(mark)), "no text file")
-    if what != "no text file" or b"\0" in content:
+    if content.startswith(_WORKBOOK):
+        return _workbook(path, content)
+    if content.startswith(_ARCHIVE) or b"\0" in content:
+        what = "an Excel file (.xlsx) or an archive" if content.startswith(_ARCHIVE) else "no text file"
         raise InvalidInput(f"{path} is {what}: export the table as text (CSV)")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
         return content.decode("cp1252", errors="replace")
+
+
+def _workbook(path: str, content: bytes) -> str:
+    """Return the longest sheet of an Excel file (.xls), as analysers write it, as text with tabs."""
+    try:
+        xlrd = importlib.import_module("xlrd")
+    except ImportError:
+        raise InvalidInput(
+            f"{path} is an Excel file (.xls): install rubfric[xls], which reads it, or export the table as text (CSV)"
+        ) from None
+    try:
+        sheets = xlrd.open_workbook(file_contents=content).sheets()
+    except Exception as error:  # xlrd raises whatever a damaged file leads it to
+        raise InvalidInput(f"{path} is no Excel file that xlrd can read ({error}): export the table as text") from None
+    sheet = max(sheets, key=lambda one: one.nrows)
+    rows = (sheet.row_values(row) for row in range(sheet.nrows))
+    return "\n".join("\t".join(" ".join(str(value).split()) for value in row) for row in rows)
 
 
 def _split(lines: Sequence[str], separator: str | None) -> list[list[str]]:
@@ -130,7 +151,7 @@ def _is_number(word: str) -> bool:
 
 def _is_units(row: Sequence[str]) -> bool:
     words = [_bare(word) for word in row]
-    return sum(map(is_unit, words)) >= 2 and all(is_unit(word) or len(word) < 3 for word in words)
+    return sum(map(is_unit, words)) >= 2 and all(is_unit(word) or len(word) < 3 or "/" in word for word in words)
 
 
 def _bare(word: str) -> str:

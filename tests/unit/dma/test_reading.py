@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -98,7 +100,7 @@ def test_what_would_be_guessed_is_asked_for(
         read(written(tmp_path / "dma.csv", headings, order, **how))
 
 
-def test_commas_spreadsheets_and_broken_rows(tmp_path: Path) -> None:
+def test_commas_spreadsheets_and_broken_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "dma.csv"
     rows = "f (Hz);E' (MPa);E'' (MPa);T (C)\n1;1,234;1,200;20\n2;1,300;1,100;20\n3;1,400;1,000;20\n"
     path.write_text(rows, encoding="utf-8")
@@ -107,7 +109,8 @@ def test_commas_spreadsheets_and_broken_rows(tmp_path: Path) -> None:
     assert read(str(path), decimal="comma").storage == pytest.approx([1.234, 1.3, 1.4])
     assert read(str(path), decimal="point").storage == pytest.approx([1234.0, 1300.0, 1400.0])
     path.write_bytes(b"\xd0\xcf\x11\xe0 and so on")
-    with pytest.raises(InvalidInput, match=r"an Excel file \(.xls\): export the table as text"):
+    monkeypatch.setitem(sys.modules, "xlrd", None)
+    with pytest.raises(InvalidInput, match=r"an Excel file \(.xls\): install rubfric\[xls\]"):
         read(str(path))
     # Blocks with headings of their own, double and unsorted points, one row without a value and one broken.
     good = "\n".join(f"{f};{100 + f};{10 + f};20.{f % 3}" for f in range(1, 40))
@@ -127,3 +130,30 @@ def test_a_ramp_is_no_isotherm() -> None:
     one = np.ones(200)
     with pytest.raises(InvalidInput, match="run on from -40 to 40 degC without steps"):
         ordered("ramp.csv", "E", one, temperature, one, one)
+
+
+def test_workbook_is_read_by_its_longest_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rows: list[list[object]] = [
+        ["Nr", "f", "T", "E'", "E''", "tan delta", "D'"],
+        ["", "Hz", "°C", "MPa", "MPa", "", "1/MPa"],
+    ]
+    rows += [[float(n), 10.0**n, -49.9 + 0.1 * n, 100.0 + n, 1e-5 + n, 0.01, 0.1] for n in range(5)]
+    sheets = [
+        SimpleNamespace(nrows=len(of), row_values=of.__getitem__) for of in ([["Operator", "x"], ["Width:", 3.1]], rows)
+    ]
+    book = SimpleNamespace(open_workbook=lambda file_contents: SimpleNamespace(sheets=lambda: sheets))
+    monkeypatch.setitem(sys.modules, "xlrd", book)
+    path = tmp_path / "dma.xls"
+    path.write_bytes(b"\xd0\xcf\x11\xe0 and so on")
+    found = read(str(path))
+    assert found.kind == "E"
+    assert found.storage == pytest.approx([100.0, 101.0, 102.0, 103.0, 104.0])
+    assert found.loss == pytest.approx([1e-5, 1.00001, 2.00001, 3.00001, 4.00001])
+    assert found.temperatures == pytest.approx([-49.7])
+
+    def damaged(file_contents: bytes) -> None:
+        raise KeyError("Workbook")
+
+    book.open_workbook = damaged
+    with pytest.raises(InvalidInput, match="no Excel file that xlrd can read"):
+        read(str(path))
