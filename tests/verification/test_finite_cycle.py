@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.energy import dissipated_and_stored
+from rubfric.mechanics.finite.layers import even_cells
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.rubber.material import Material
 from rubfric.scene.numerics import Numerics
@@ -45,10 +46,12 @@ class Balance:
         rate = 1j * finite.frequencies
         rate[-1] = 0.0  # the phase of the last harmonic is unknown
 
-        def cells(field: Real) -> Real:
-            return (field * finite.weights).sum(axis=0) / finite.weights.sum(axis=0)
+        weights = finite.quadrature.weights.T[:, :, None]
 
-        self.area = finite.weights.sum(axis=0)
+        def cells(field: Real) -> Real:
+            return (even_cells(finite.layers, field) * weights).sum(axis=0) / self.area
+
+        self.area = weights.sum(axis=0)
         self.lost, self.power = cells(self.points_lost), cells(power)
         self.excess = cells(power - finite.convolve(rate, stored) - self.points_lost)
 

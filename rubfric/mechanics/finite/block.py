@@ -15,7 +15,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +33,8 @@ from rubfric.mechanics.finite.law import (
     tangent,
     volumetric_stress,
 )
-from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve
+from rubfric.mechanics.finite.layers import Layer, restricted, spread, undivided
+from rubfric.mechanics.finite.memory import BranchHistory, SteadyHistory, convolve, convolve_layers
 from rubfric.mechanics.theory.compression import pressed
 from rubfric.rubber.material import Material
 
@@ -138,23 +139,43 @@ class FiniteBlock:
     material : Material
     velocity : float
         v, mm/s.
+    layers : sequence of Layer, optional
+        Rows that are worked out on fewer columns; none by default.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Rows and columns of arrays of the points: those of the block, or fewer rows.
+    weights : ndarray, shape (points, rows, 1) or (points, *shape)
+        Area that points stand for, mm².
     """
 
-    def __init__(self, block: Block, material: Material, velocity: float) -> None:
+    def __init__(
+        self, block: Block, material: Material, velocity: float, layers: Sequence[Layer] | None = None
+    ) -> None:
         self.block = block
         self.material = material
         self.velocity = velocity
+        self.layers = undivided(block) if layers is None else tuple(layers)
+        self.shape = self.layers[-1].stored.stop, block.columns
         self.quadrature = block.quadrature(centred=True)
         self.points = len(self.quadrature.shapes)
-        self.weights = self.quadrature.weights.T[:, :, None]  # mm², (points, rows, 1)
+        self.weights = self.quadrature.weights.T[:, :, None]
         # From the four nodes of a cell to d/dx and d/dy at its points, and back with the weights.
         gradients = self.quadrature.gradients
         rows = block.rows
         self._to_points = np.ascontiguousarray(gradients.swapaxes(2, 3).reshape(rows, 2 * self.points, 4))
         weighed = gradients * self.quadrature.weights[:, :, None, None]
         self._to_nodes = np.ascontiguousarray(weighed.transpose(0, 2, 1, 3).reshape(rows, 4, 2 * self.points))
+        if len(self.layers) > 1:
+            own, self.weights = self.weights, np.empty((self.points, *self.shape))
+            for layer in self.layers:
+                layer.of(self.weights)[:] = layer.share * own[:, layer.rows]
+                self._to_nodes[layer.rows] *= layer.share
+        # One column along the road, for harmonics.
+        self.turn = np.exp(2j * np.pi / block.columns * block.harmonics)
         self.frequencies = block.wavenumbers * velocity
-        self.history: BranchHistory = SteadyHistory(material, self.frequencies)
+        self.history: BranchHistory = SteadyHistory(material, self.frequencies, self.layers)
 
     def with_history(self, history: BranchHistory) -> FiniteBlock:
         """Return the same block with other branches' answers to a state."""
@@ -181,45 +202,74 @@ class FiniteBlock:
         """Return the fields of the block as it was made."""
         block = self.block
         return Fields(
-            np.zeros((2, block.rows + 1, block.columns)),
-            np.zeros((self.unknowns - 4, self.points, block.rows, block.columns)),
-            np.ones((self.points if block.pointwise else 1, block.rows, block.columns)),
+            np.zeros((2, self.shape[0] + 1, block.columns)),
+            np.zeros((self.unknowns - 4, self.points, *self.shape)),
+            np.ones((self.points if block.pointwise else 1, *self.shape)),
         )
 
     def pressed(self, pressure: float) -> Fields:
         """Return the fields of the relaxed block pressed on a flat road, by a nominal pressure in MPa."""
         stretch, thickness = pressed(self.material, pressure, self.block.plane)
         fields = self.at_rest()
-        fields.displacement[1] = (stretch - 1.0) * self.block.row_positions[:, None]
+        up = (stretch - 1.0) * self.block.row_positions[1:, None]
+        for layer in self.layers:
+            layer.nodes_of(fields.displacement[1])[:] = up[layer.rows]
         fields.log_thickness[:] = math.log(thickness)
         fields.volume[:] = stretch * thickness
         return fields
 
     def gradient(self, displacement: Real) -> Real:
-        """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, rows, columns)."""
-        rows, columns = self.block.rows, self.block.columns
-        corners = np.empty((rows, 4, 2, columns))
-        for level, part in ((0, displacement[:, :-1]), (2, displacement[:, 1:])):
-            left = part.swapaxes(0, 1)
-            corners[:, level] = left
-            corners[:, level + 1, :, :-1] = left[..., 1:]
-            corners[:, level + 1, :, -1] = left[..., 0]
-        slopes = (self._to_points @ corners.reshape(rows, 4, -1)).reshape(rows, self.points, 2, 2, columns)
-        # From (row, point, derivative, component, column).
-        return np.ascontiguousarray(slopes.transpose(3, 2, 1, 0, 4)).reshape(4, self.points, rows, columns)
+        """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, *shape)."""
+        gradient = np.empty((4, self.points, *self.shape))
+        top = displacement[:, :1]
+        for layer in self.layers:
+            nodes = displacement[:, : layer.stored.stop + 1]
+            if layer.share > 1:
+                nodes = np.concatenate((restricted(top, layer.columns), layer.nodes_of(displacement)), axis=1)
+            rows, nodes = nodes.shape[1] - 1, nodes.swapaxes(0, 1)
+            corners = np.empty((rows, 2, 2, 2, layer.columns))  # row, level, side, component
+            corners[:, 0, 0], corners[:, 1, 0] = nodes[:-1], nodes[1:]
+            if layer.share == 1:
+                corners[:, :, 1, :, :-1], corners[:, :, 1, :, -1] = corners[:, :, 0, :, 1:], corners[:, :, 0, :, 0]
+            else:
+                right = convolve(layer.kernel(self.turn), nodes)
+                corners[:, 0, 1], corners[:, 1, 1] = right[:-1], right[1:]
+            slopes = self._to_points[layer.rows] @ corners.reshape(rows, 4, -1)
+            # From (row, point, derivative, component, column).
+            ordered = slopes.reshape(rows, self.points, 2, 2, layer.columns).transpose(3, 2, 1, 0, 4)
+            layer.of(gradient).reshape(ordered.shape)[:] = ordered
+            top = nodes[-1:].swapaxes(0, 1)
+        return gradient
 
     def forces(self, stresses: Real) -> Real:
         """Return the nodal forces of first Piola-Kirchhoff stresses, N per mm of thickness, (2, rows + 1, columns)."""
-        rows, columns = self.block.rows, self.block.columns
-        ordered = stresses.reshape(2, 2, self.points, rows, columns).transpose(3, 2, 1, 0, 4)
-        corners = (self._to_nodes @ ordered.reshape(rows, 2 * self.points, -1)).reshape(rows, 4, 2, columns)
-        corners = corners.transpose(1, 2, 0, 3)
-        nodal = np.zeros((2, rows + 1, columns))
-        for level, part in ((0, nodal[:, :-1]), (2, nodal[:, 1:])):
-            part += corners[level]
-            part[..., 1:] += corners[level + 1][..., :-1]
-            part[..., 0] += corners[level + 1][..., -1]
+        nodal = np.zeros((2, self.shape[0] + 1, self.block.columns))
+        top = nodal[:, :1]
+        for layer in self.layers:
+            ordered = layer.of(stresses)
+            rows = ordered.shape[-2]
+            ordered = ordered.reshape(2, 2, self.points, rows, layer.columns).transpose(3, 2, 1, 0, 4)
+            corners = self._to_nodes[layer.rows] @ ordered.reshape(rows, 2 * self.points, -1)
+            corners = corners.reshape(rows, 4, 2, layer.columns).transpose(1, 2, 0, 3)
+            nodes = nodal[:, : rows + 1] if layer.share == 1 else np.zeros((2, rows + 1, layer.columns))
+            for level, part in ((0, nodes[:, :-1]), (2, nodes[:, 1:])):
+                part += corners[level]
+                if layer.share == 1:
+                    part[..., 1:] += corners[level + 1][..., :-1]
+                    part[..., 0] += corners[level + 1][..., -1]
+                else:
+                    part += convolve(layer.kernel(self.turn).conj(), corners[level + 1])
+            if layer.share > 1:
+                top += spread(nodes[:, :1], top.shape[-1])
+                layer.nodes_of(nodal)[:] = nodes[:, 1:]
+            top = layer.nodes_of(nodal)[:, -1:]
         return nodal
+
+    def top_load(self, pressure: float) -> Real:
+        """Return the forces of a nominal pressure in MPa on the uppermost stored row of nodes, shape (columns,)."""
+        layer, forces = self.layers[-1], np.zeros(self.block.columns)
+        forces[-layer.columns :] = layer.share * pressure * self.block.column_width
+        return forces
 
     def stressed(self, fields: Fields) -> Stressed:
         """Return the state of the points under some fields.
@@ -256,16 +306,26 @@ class FiniteBlock:
         stiffness = Stiffness(state, curvature)
         if state.deformation.area.size > _HELD:
             return stiffness
-        parts = [stiffness.tangent(rows) for rows in self.row_slices()]
-        gathered = ([getattr(part, field.name) for part in parts] for field in dataclasses.fields(Tangent))
-        held = parts[0] if len(parts) == 1 else Tangent(*(np.concatenate(arrays, axis=-2) for arrays in gathered))
-        return dataclasses.replace(stiffness, held=held)
+        held: dict[str, Real] = {}
+        for rows in self.row_slices():
+            for name, part in vars(stiffness.tangent(rows)).items():
+                whole = part.shape[-2] == self.shape[0]
+                held.setdefault(name, part if whole else np.empty((*part.shape[:-2], *self.shape)))
+                if not whole:
+                    held[name][..., rows, :] = part
+        return dataclasses.replace(stiffness, held=Tangent(**held))
 
     def row_slices(self) -> Iterator[slice]:
         """Yield the rows of cells a few at a time, all at once on small meshes, so that work takes little memory."""
+        for part in self.parts():
+            yield part.stored
+
+    def parts(self) -> Iterator[Layer]:
+        """Yield the parts of layers that ``row_slices`` are the rows of."""
         few = max(1, _AT_ONCE // (self.points * self.block.columns))
-        for first in range(0, self.block.rows, few):
-            yield slice(first, min(first + few, self.block.rows))
+        for layer in self.layers:
+            for first in range(layer.stored.start, layer.stored.stop, few):
+                yield layer.part(slice(first, min(first + few, layer.stored.stop)))
 
     def change(self, stiffness: Stiffness, step: Fields) -> tuple[Real, Real]:
         """Return the change of the stresses, MPa, and of the volume's excess under a small step.
@@ -329,7 +389,7 @@ class FiniteBlock:
             For the harmonics 0 to columns / 2.
         field : ndarray, shape (..., columns)
         """
-        return convolve(kernel, field)
+        return convolve_layers(self.layers, kernel, field)
 
 
 def _apply(matrix: Real, vector: Real) -> Real:

@@ -12,6 +12,7 @@ the block is; where that matters, its top is held.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import fft
@@ -20,6 +21,7 @@ from scipy.linalg import lapack
 from rubfric.arrays import Complex, Flags, Real, Whole
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness
 from rubfric.mechanics.finite.condensation import Condensed, cell_mean, condensed
+from rubfric.mechanics.finite.layers import gathered, node_fields, node_harmonics
 
 # Unknowns of a row couple with those of the rows beside it: diagonals on either side of the main one.
 _BAND = 3
@@ -33,15 +35,24 @@ class RightSide:
     ----------
     force : ndarray of complex, shape (2, rows + 1, n)
         N per mm of thickness.
-    thickness : ndarray of complex, shape (1 or 0, points, rows, n)
-        Logarithm of the thickness stretch that it causes in a block whose nodes are held.
-    volume : ndarray of complex, shape (points or 1, rows, n)
-        Volume ratio that it causes there.
+    thickness : list of ndarray of complex, shape (1 or 0, points, rows, n)
+        Of each layer: logarithm of the thickness stretch that it causes in a block whose nodes are held.
+    volume : list of ndarray of complex, shape (points or 1, rows, n)
+        Of each layer: volume ratio that it causes there.
     """
 
     force: Complex
-    thickness: Complex
-    volume: Complex
+    thickness: list[Complex]
+    volume: list[Complex]
+
+
+class _Factors(NamedTuple):
+    """A factorised band of the harmonics that go up to the same row of nodes."""
+
+    harmonics: slice
+    rows: int
+    factors: Complex
+    pivots: Whole
 
 
 class Circulant:
@@ -83,17 +94,25 @@ class Circulant:
     def __init__(self, finite: FiniteBlock, stiffness: Stiffness, pressure: float) -> None:
         self._finite = finite
         self._harmonics = len(finite.block.harmonics)
-        parts = [condensed(finite, stiffness, rows) for rows in finite.row_slices()]
-        whole = Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True)))
-        del parts
-        self._thickness_compliance, self._volume_stiffness = whole.thickness_compliance, whole.volume_stiffness
-        self._thickness_of_displacement = whole.thickness_of_displacement
-        self._force_of_thickness, self._force_of_volume = whole.force_of_thickness, whole.force_of_volume
-        self._volume_of_thickness, self._thickness_of_volume = whole.volume_of_thickness, whole.thickness_of_volume
-        self._volume_of_displacement = whole.volume_of_displacement
-        cells = whole.cells
-        del whole
-        self._factors, self._pivots = self._factorise(cells, pressure)
+        layers: list[list[Condensed]] = [[] for _ in finite.layers]
+        for part in finite.parts():
+            number = sum(layer.stored.stop <= part.stored.start for layer in finite.layers)
+            layers[number].append(condensed(finite, stiffness, part))
+        self._layers = [
+            Condensed(*(np.concatenate(arrays, axis=-2) for arrays in zip(*parts, strict=True))) for parts in layers
+        ]
+        del layers
+        for layer in self._layers[1:]:  # which see no last harmonic of the nodes below them
+            layer.cells[:2, :, 0, -1] = layer.cells[:, :2, 0, -1] = 0.0
+            for name in (
+                "thickness_of_displacement",
+                "force_of_thickness",
+                "volume_of_displacement",
+                "force_of_volume",
+            ):
+                getattr(layer, name)[:2, ..., 0, -1] = 0.0
+        self._factors = self._factorise([layer.cells for layer in self._layers], pressure)
+        self._layers = [layer._replace(cells=layer.cells[..., :0]) for layer in self._layers]  # no longer needed
         self._surface_response = np.stack([self._unit(component, transposed=True) for component in (0, 1)])
         self.compliance: Complex = np.stack([self._unit(component)[:, 0].T for component in (0, 1)], axis=1)
         self.compliance[..., -1] = self.compliance[..., -1].real
@@ -112,20 +131,26 @@ class Circulant:
         volume_excess : ndarray, shape (points or 1, rows, columns)
             e, dimensionless.
         """
-        force = fft.rfft(forces, axis=-1)
-        thickness = fft.rfft(thickness_stress, axis=-1)
-        volume = fft.rfft(volume_excess, axis=-1)
-        if len(thickness):
-            volume = (
-                volume + cell_mean(self._finite, self._volume_of_thickness * thickness)[0]
-            ) / self._volume_stiffness
-        pushed = (self._force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
-        if len(thickness):
-            pushed += (self._force_of_thickness * thickness[0]).sum(axis=1)
-            thickness = self._thickness_compliance * thickness - self._thickness_of_volume * volume
-        force[:, :-1] -= pushed[:2]
-        force[:, 1:] -= pushed[2:]
-        return RightSide(force, thickness, volume)
+        right = RightSide(node_harmonics(self._finite.layers, forces), [], [])
+        for layer, known in zip(self._finite.layers, self._layers, strict=True):
+            thickness = fft.rfft(layer.of(thickness_stress), axis=-1)
+            volume = fft.rfft(layer.of(volume_excess), axis=-1)
+            if len(thickness):
+                volume = (
+                    volume + cell_mean(self._finite, known.volume_of_thickness * thickness)[0]
+                ) / known.volume_stiffness
+            pushed = (known.force_of_volume * volume).sum(axis=1)  # (level and component, row, harmonic)
+            if len(thickness):
+                pushed += (known.force_of_thickness * thickness[0]).sum(axis=1)
+                thickness = known.thickness_compliance * thickness - known.thickness_of_volume * volume
+            below, above = slice(layer.rows.start, layer.rows.stop), slice(layer.rows.start + 1, layer.rows.stop + 1)
+            if layer.share > 1:
+                pushed *= layer.share  # sums over fewer points
+            right.force[:, below, : layer.harmonics] -= pushed[:2]
+            right.force[:, above, : layer.harmonics] -= pushed[2:]
+            right.thickness.append(thickness)
+            right.volume.append(volume)
+        return right
 
     def surface(self, right: RightSide) -> Real:
         """Return u_x and u_y at the surface under a load, without the means that are held.
@@ -157,23 +182,34 @@ class Circulant:
         spectrum = self._solve(ordered).transpose(2, 1, 0)
         if not self._finite.history.anchored:
             spectrum[0, :, 0] -= spectrum[0, 0, 0]
-        corners = np.concatenate((spectrum[:, :-1], spectrum[:, 1:]))[:, None]
-        dilatation = (self._volume_of_displacement * corners).sum(axis=0)
-        volume, thickness = right.volume + dilatation, right.thickness
-        if len(thickness):
-            thickness = thickness - (self._thickness_of_displacement * corners).sum(axis=0)
-            thickness -= self._thickness_of_volume * dilatation
-        columns = self._finite.block.columns
-        return Fields(*(fft.irfft(field, columns, axis=-1) for field in (spectrum, thickness, volume)))
+        layers, thickness, volume = self._finite.layers, [], []
+        for number, (layer, known) in enumerate(zip(layers, self._layers, strict=True)):
+            nodes = spectrum[:, layer.rows.start : layer.rows.stop + 1, : layer.harmonics]
+            corners = np.concatenate((nodes[:, :-1], nodes[:, 1:]))[:, None]
+            if layer.share > 1:
+                corners /= layer.share
+            dilatation = (known.volume_of_displacement * corners).sum(axis=0)
+            volume.append(fft.irfft(right.volume[number] + dilatation, layer.columns, axis=-1))
+            caused = right.thickness[number]
+            if len(caused):
+                caused = caused - (known.thickness_of_displacement * corners).sum(axis=0)
+                caused -= known.thickness_of_volume * dilatation
+            thickness.append(fft.irfft(caused, layer.columns, axis=-1))
+        return Fields(node_fields(layers, spectrum), gathered(thickness), gathered(volume))
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
-        answer, info = lapack.zgbtrs(
-            self._factors, _BAND, _BAND, right.reshape(-1), self._pivots, trans=1 if transposed else 0
-        )
-        if info:
-            raise ValueError(f"zgbtrs: argument {-info} has an illegal value")
-        return np.asarray(answer).reshape(self._harmonics, -1, 2)
+        answer = np.zeros((self._harmonics, self._finite.block.rows + 1, 2), dtype=complex)
+        for part in self._factors:
+            size = 2 * (part.rows + 1)
+            sought = right[part.harmonics, :size].reshape(-1)
+            found, info = lapack.zgbtrs(part.factors, _BAND, _BAND, sought, part.pivots, trans=1 if transposed else 0)
+            if info:
+                raise ValueError(f"zgbtrs: argument {-info} has an illegal value")
+            if len(self._factors) == 1:
+                return np.asarray(found).reshape(answer.shape)
+            answer[part.harmonics, : part.rows + 1] = np.asarray(found).reshape(-1, part.rows + 1, 2)
+        return answer
 
     def _unit(self, component: int, transposed: bool = False) -> Complex:
         """Return the response to a unit force at the surface, for all harmonics, (n, rows + 1, 2)."""
@@ -189,23 +225,33 @@ class Circulant:
         held[0, 1] = True
         return held
 
-    def _factorise(self, cells: Complex, pressure: float) -> tuple[Complex, Whole]:
-        """Assemble the cells, shape (4, 4, rows, n), to one banded matrix after another, and factorise them."""
-        rows = cells.shape[2]
-        size, middle = 2 * (rows + 1), 2 * _BAND
-        band = np.zeros((3 * _BAND + 1, self._harmonics, size), dtype=complex)
-        for a in range(4):
-            for b in range(4):
-                band[middle + a - b, :, b : b + 2 * rows : 2] += cells[a, b].T
-        turning = 1j * pressure * np.sin(2.0 * np.pi / self._finite.block.columns * self._finite.block.harmonics)
-        band[middle - 1, :, 1] += turning
-        band[middle + 1, :, 0] -= turning
-        for harmonics, held in ((slice(None), size - 2), (slice(0, 1), 1)):
-            for other in range(max(0, held - _BAND), min(size, held + _BAND + 1)):
-                band[middle + held - other, harmonics, other] = 0.0
-                band[middle + other - held, harmonics, held] = 0.0
-            band[middle, harmonics, held] = 1.0
-        factors, pivots, info = lapack.zgbtrf(band.reshape(3 * _BAND + 1, -1), _BAND, _BAND)
-        if info:
-            raise np.linalg.LinAlgError("singular averaged stiffness")
-        return factors, pivots
+    def _factorise(self, cells: list[Complex], pressure: float) -> list[_Factors]:
+        """Assemble the cells of the layers, (4, 4, rows, n), to one banded matrix after another, and factorise them.
+
+        Harmonics that the layer above does not resolve end, free, with the last row of nodes of their own.
+        """
+        layers, found, first = self._finite.layers, [], 0
+        for last in reversed(range(len(layers))):
+            harmonics, rows = slice(first, layers[last].harmonics), layers[last].rows.stop
+            first = harmonics.stop
+            size, middle = 2 * (rows + 1), 2 * _BAND
+            band = np.zeros((3 * _BAND + 1, harmonics.stop - harmonics.start, size), dtype=complex)
+            for layer, parts in zip(layers[: last + 1], cells, strict=False):
+                low, high = 2 * layer.rows.start, 2 * layer.rows.stop
+                for a in range(4):
+                    for b in range(4):
+                        band[middle + a - b, :, low + b : high + b : 2] += parts[a, b, :, harmonics].T
+            turning = 1j * pressure * self._finite.turn[harmonics].imag
+            band[middle - 1, :, 1] += turning
+            band[middle + 1, :, 0] -= turning
+            top, mean = (slice(None), size - 2), (slice(0, 1), 1)
+            for which, held in (top, mean) if last == len(layers) - 1 else ():
+                for other in range(max(0, held - _BAND), min(size, held + _BAND + 1)):
+                    band[middle + held - other, which, other] = 0.0
+                    band[middle + other - held, which, held] = 0.0
+                band[middle, which, held] = 1.0
+            factors, pivots, info = lapack.zgbtrf(band.reshape(3 * _BAND + 1, -1), _BAND, _BAND)
+            if info:
+                raise np.linalg.LinAlgError("singular averaged stiffness")
+            found.append(_Factors(harmonics, rows, factors, pivots))
+        return found

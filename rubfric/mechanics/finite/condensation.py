@@ -12,6 +12,7 @@ import numpy as np
 from rubfric.arrays import Complex, Real
 from rubfric.mechanics.finite.block import FiniteBlock, Stiffness
 from rubfric.mechanics.finite.law import Tangent
+from rubfric.mechanics.finite.layers import Layer
 
 
 class Condensed(NamedTuple):
@@ -32,7 +33,7 @@ class Condensed(NamedTuple):
     cells: Complex
 
 
-def condensed(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> Condensed:
+def condensed(finite: FiniteBlock, stiffness: Stiffness, part: Layer) -> Condensed:
     """Condense thickness and volume in some rows of cells, as the equations of ``Circulant`` say.
 
     Parameters
@@ -40,15 +41,15 @@ def condensed(finite: FiniteBlock, stiffness: Stiffness, rows: slice) -> Condens
     finite : FiniteBlock
     stiffness : Stiffness
         The tangent to average along the road.
-    rows : slice
-        Of cells.
+    part : Layer
+        Rows of cells.
     """
-    slope = _slope(finite, rows)
-    weighed = slope.conj() * finite.weights[:, rows]
-    points = stiffness.tangent(rows)
-    volume = points.volume.mean(axis=-1)[..., None]
-    bulk = stiffness.curvature[..., rows, :].mean(axis=-1)[..., None] + finite.bulk_kernel
-    moduli = _moduli(finite, points)
+    slope = _slope(finite, part)
+    weighed = slope.conj() * finite.quadrature.weights.T[:, part.rows, None]
+    points = stiffness.tangent(part.stored)
+    volume = part.mean(points.volume)[..., None]
+    bulk = part.mean(stiffness.curvature[..., part.stored, :])[..., None] + part.kernel(finite.bulk_kernel)
+    moduli = _moduli(finite, points, part)
     stress_by_pressure, volume_by_gradient = volume, volume
     volume_stiffness: Complex = np.ones((1, *bulk.shape[1:2], 1), dtype=complex)  # s
     compliance = by_displacement = by_thickness = volume_of_thickness = thickness_of_volume = volume_stiffness[:0]
@@ -93,31 +94,33 @@ def cell_mean(finite: FiniteBlock, points: Complex) -> Complex:
     return points if finite.block.pointwise else points.mean(axis=1, keepdims=True)
 
 
-def _moduli(finite: FiniteBlock, points: Tangent) -> Complex:
+def _moduli(finite: FiniteBlock, points: Tangent, part: Layer) -> Complex:
     """Return A_n = <local> - H_n <dS/dQ> <dCb^-1/d(unknowns)>, the averaged moduli at constant volume.
 
     Parameters
     ----------
     finite : FiniteBlock
     points : Tangent
-        Of some rows of cells.
+        Of the part.
+    part : Layer
+        Rows of cells.
 
     Returns
     -------
     ndarray of complex, shape (m, m, points, rows, n)
         MPa.
     """
-    local, by_driving, inverse = (part.mean(axis=-1) for part in (points.local, points.by_driving, points.inverse))
+    local, by_driving, inverse = map(part.mean, (points.local, points.by_driving, points.inverse))
     relaxing = np.einsum("ijpr,jkpr->ikpr", by_driving, inverse)
-    moduli: Complex = relaxing[..., None] * -finite.shear_kernel
+    moduli: Complex = relaxing[..., None] * -part.kernel(finite.shear_kernel)
     moduli += local[..., None]
     return moduli
 
 
-def _slope(finite: FiniteBlock, rows: slice) -> Complex:
+def _slope(finite: FiniteBlock, part: Layer) -> Complex:
     """Return d/dx and d/dy of harmonics, 1/mm, (2, 2, points, rows, n), from a lower and an upper row of nodes."""
-    turn = np.exp(2j * np.pi / finite.block.columns * finite.block.harmonics)
-    nodes = finite.quadrature.gradients[rows].transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
+    turn = part.kernel(finite.turn)
+    nodes = finite.quadrature.gradients[part.rows].transpose(3, 2, 1, 0)[..., None]  # (derivative, node, point, row, 1)
     slope: Complex = nodes[:, 0::2] + nodes[:, 1::2] * turn
     return slope
 

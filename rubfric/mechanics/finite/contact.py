@@ -197,7 +197,7 @@ class SlidingContact:
         width = finite.block.column_width
         state = finite.stressed(fields)
         forces = finite.forces(state.stress[:4])
-        forces[1, -1] += load.pressure * width
+        forces[1, -1] += finite.top_load(load.pressure)
         right = circulant.right_side(-forces, -state.stress[4:], -state.volume_excess)
         free = circulant.surface(right)
         position = finite.block.column_positions + fields.displacement[0, 0]

@@ -17,6 +17,7 @@ from rubfric.arrays import Real
 from rubfric.mechanics.finite.block import FiniteBlock
 from rubfric.mechanics.finite.branch_energy import elongation, excess, trace
 from rubfric.mechanics.finite.law import Deformation, volumetric_energy
+from rubfric.mechanics.finite.layers import even_cells, even_nodes
 from rubfric.mechanics.finite.memory import branch_transfers
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.mechanics.steady.energies import Energies, output_stride, rows_to_nodes
@@ -28,14 +29,17 @@ def evaluate_finite(solution: FiniteSolution) -> Energies:
     lost, stored = dissipated_and_stored(finite, solution.correction.state.deformation)
     force = scene.pressure * block.width
     stride = output_stride(scene, block.columns, block.rows + 1)
-    cells = (stored * finite.weights).sum(axis=(0, 2)) / (finite.weights.sum(axis=(0, 2)) * block.columns)
+    weights = finite.quadrature.weights.T
+    means = np.concatenate([layer.of(stored).mean(axis=-1) for layer in finite.layers], axis=-1)
+    cells = (means * weights).sum(axis=0) / weights.sum(axis=0)
+    displacement = even_nodes(finite.layers, solution.fields.displacement)
     return Energies(
         stress_power=solution.friction.stress_power,
         dissipation=float((lost * finite.weights).sum() / (scene.velocity * force)),
         contact=solution.friction.contact,
         depth_profile=rows_to_nodes(np.diff(block.row_positions), cells),
         density=nodal_density(finite, stored)[:, ::stride],
-        displacement=np.ascontiguousarray(solution.fields.displacement.swapaxes(0, 1)[..., ::stride]),
+        displacement=np.ascontiguousarray(displacement.swapaxes(0, 1)[..., ::stride]),
         resolution=solution.friction.resolution,
     )
 
@@ -98,9 +102,10 @@ def nodal_density(finite: FiniteBlock, density: Real) -> Real:
     ----------
     finite : FiniteBlock
     density : ndarray, shape (points, rows, columns)
-        MPa.
+        MPa, rows and columns those of ``FiniteBlock.shape``.
     """
-    shapes, weights = finite.quadrature.shapes, finite.weights
+    shapes, weights = finite.quadrature.shapes, finite.quadrature.weights.T[:, :, None]
+    density = even_cells(finite.layers, density)
     total = np.zeros((finite.block.rows + 1, finite.block.columns))
     area = np.zeros((finite.block.rows + 1, 1))
     for corner in range(4):

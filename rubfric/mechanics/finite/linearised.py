@@ -47,12 +47,19 @@ def scaling(finite: FiniteBlock, stiffness: Stiffness, harmonic: int) -> Fields:
         points = stiffness.tangent(rows)
         relaxing = np.einsum("ij...,ji...->...", points.by_driving[:4], points.inverse[:, :4])
         stiff[:, rows] = np.einsum("ii...->...", points.local[:4, :4]) - branches * relaxing
-    stiff = np.maximum(stiff / stiff.mean(axis=-1, keepdims=True), _SOFTEST)
-    cells = stiff.mean(axis=0)
-    nodes = np.pad(0.5 * (cells + np.roll(cells, 1, axis=1)), ((1, 1), (0, 0)), mode="edge")
-    nodes = 0.5 * (nodes[1:] + nodes[:-1])
-    nodes[-1] = 1.0  # the top moves as a whole
-    volume = stiff if finite.block.pointwise else cells[None]
+    cells, nodes = np.empty((1, *finite.shape)), np.ones((finite.shape[0] + 1, finite.block.columns))
+    for layer in finite.layers:
+        local = layer.of(stiff)
+        local[:] = np.maximum(local / local.mean(axis=-1, keepdims=True), _SOFTEST)
+        layer.of(cells)[:] = local.mean(axis=0)
+        columns = layer.of(cells)[0]
+        columns = 0.5 * (columns + np.roll(columns, 1, axis=1))
+        layer.nodes_of(nodes)[:-1] = 0.5 * (columns[1:] + columns[:-1])
+        if layer.rows.start == 0:
+            nodes[0] = columns[0]
+        if layer.rows.stop < finite.block.rows:  # the top moves as a whole
+            layer.nodes_of(nodes)[-1] = columns[-1]
+    volume = stiff if finite.block.pointwise else cells
     return Fields(nodes**-0.5, stiff**-0.5, volume**0.5)
 
 
@@ -113,7 +120,7 @@ class Linearised:
         if self._scale is EVEN and np.array_equal(known.contact.touching, self._touching):
             return known.step, known.contact.pressure
         forces = -self._problem.finite.forces(known.state.stress[:4])
-        forces[1, -1] -= load.pressure * self._width
+        forces[1, -1] -= self._problem.finite.top_load(load.pressure)
         loads = forces, -known.state.stress[4:], -known.state.volume_excess
         return self._preconditioned(*loads, -known.above, load.pressure * len(self._touching))
 

@@ -21,8 +21,10 @@ from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
 from rubfric.mechanics.finite.continuation import AttemptLog, Start, reach
 from rubfric.mechanics.finite.law import Inverted
+from rubfric.mechanics.finite.layers import even_cells
 from rubfric.mechanics.finite.memory import StepHistory, branch_transfers, convolve
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton
+from rubfric.mechanics.finite.prolongation import on_all_columns
 from rubfric.mechanics.finite.state import Branches, FiniteState
 from rubfric.mechanics.finite.steady import FiniteSolution
 from rubfric.mechanics.march.step import Outcome
@@ -96,8 +98,8 @@ class FiniteStepper:
 
     def slide_steadily(self, solution: FiniteSolution) -> None:
         """Bring the block into the state of a steady solution of this scene on this mesh."""
-        fields, correction = solution.fields, solution.correction
-        inverse = correction.state.deformation.inverse
+        fields, correction = on_all_columns(solution.fields, solution.finite), solution.correction
+        inverse = even_cells(solution.finite.layers, correction.state.deformation.inverse)
         frequencies = self.block.wavenumbers * self.scene.velocity
         behind, volume_behind = self._branches.none(fields, inverse)
         for branch, transfer in enumerate(branch_transfers(self.scene.material, frequencies)):

@@ -7,12 +7,14 @@ time they are numbers, and M and N what is left of the state before.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
 from scipy import fft
 
 from rubfric.arrays import Complex, Real
+from rubfric.mechanics.finite.layers import Layer
 from rubfric.rubber.material import Material
 
 
@@ -63,24 +65,27 @@ class SteadyHistory:
     material : Material
     frequencies : ndarray, shape (n,)
         n k v, rad/s, of the harmonics 0 to columns / 2.
+    layers : sequence of Layer
+        Of the block; none where all rows have all columns.
     """
 
     known_driving: Real | float = 0.0
     known_pressure: Real | float = 0.0
     anchored = False
 
-    def __init__(self, material: Material, frequencies: Real) -> None:
+    def __init__(self, material: Material, frequencies: Real, layers: Sequence[Layer] = ()) -> None:
+        self._layers = layers
         self.shear_kernel = _kernel(material.complex_shear_modulus(frequencies))
         self.bulk_kernel = _kernel(material.complex_bulk_modulus(frequencies))
         self.bulk_relaxes = bool(material.branch_bulk_moduli.any())
 
     def shear(self, field: Real) -> Real:
         """Return the convolution of a field with the shear kernel, MPa."""
-        return convolve(self.shear_kernel, field)
+        return convolve_layers(self._layers, self.shear_kernel, field)
 
     def bulk(self, field: Real) -> Real:
         """Return the convolution of a field with the bulk kernel, MPa."""
-        return convolve(self.bulk_kernel, field)
+        return convolve_layers(self._layers, self.bulk_kernel, field)
 
 
 class StepHistory:
@@ -139,6 +144,25 @@ def convolve(kernel: Complex, field: Real) -> Real:
     spectrum = fft.rfft(field, axis=-1)
     spectrum *= kernel
     answer: Real = fft.irfft(spectrum, field.shape[-1], axis=-1, overwrite_x=True)
+    return answer
+
+
+def convolve_layers(layers: Sequence[Layer], kernel: Complex, field: Real) -> Real:
+    """Return ``convolve`` of a field of points, each layer of rows with its own harmonics.
+
+    Parameters
+    ----------
+    layers : sequence of Layer
+        None where all rows have all columns.
+    kernel : ndarray of complex, shape (n,)
+        As for ``convolve``.
+    field : ndarray, shape (..., stored rows, columns)
+    """
+    if len(layers) <= 1:
+        return convolve(kernel, field)
+    answer = np.empty_like(field)
+    for layer in layers:
+        layer.of(answer)[:] = convolve(layer.kernel(kernel), layer.of(field))
     return answer
 
 

@@ -176,6 +176,7 @@ def _iterate(
         found = newton_direction(
             problem, circulant, stiffness, correction, load, correction.contact.touching, _forcing(residuals), hard
         )
+        del stiffness  # much memory
         hard = hard or found.most > _HARD
         krylov += found.krylov
         ahead = _advance(problem, circulant, fields, found, load, max(residuals[-_MEMORY:]))

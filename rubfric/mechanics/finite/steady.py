@@ -10,6 +10,7 @@ from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
 from rubfric.mechanics.finite.continuation import AttemptLog, Start, attempt, reach
+from rubfric.mechanics.finite.layers import divided
 from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.prolongation import prolong
 from rubfric.mechanics.steady.energies import ROUND_OFF
@@ -123,7 +124,8 @@ class FiniteSolver:
         scene, tolerance, log = self.scene, self.scene.numerics.tolerance, self._log
         block = resolution.block(scene)
         folding = fold_scene(scene, block.wavenumbers[1:])
-        finite = FiniteBlock(block, folding.material, scene.velocity)
+        stretch, _ = pressed(scene.material, scene.pressure, scene.plane)
+        finite = FiniteBlock(block, folding.material, scene.velocity, divided(block, stretch))
         problem = SlidingContact(finite, measures(scene.road), scene.name)
         solved = self._warm(problem)
         if solved is None:

@@ -15,7 +15,7 @@ from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Columns, and cells, beyond which a mesh in finite strain takes more than three gigabytes; cells in small strain.
+# Most columns, and cells, of a mesh in finite strain; most cells in small strain.
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
