@@ -35,7 +35,8 @@ _LIGHT = 0.1
 # Newton step costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
 _MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 1.5e8, 10, 5000
 
-_SPENT = "a scene has only so much work, and this one has had it: most likely it has no solution under so heavy a load"
+_SPENT = "a scene has only so much work, and this one has had it"
+_HELPS = "a lighter load or a less steep road is easier; other meshes may do"
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,12 @@ class AttemptLog:
         self.steps = 0
         self.krylov = 0
         self.work = 0.0
+        self._last = "no solution was found on the way"
+
+    @property
+    def measured(self) -> str:
+        """What the last solution on the way was, and what may help: the advice of a refusal."""
+        return f"{self._last}; {_HELPS}"
 
     def _count(self, problem: SlidingContact, steps: int, krylov: int) -> None:
         self.steps += steps
@@ -78,6 +85,8 @@ class AttemptLog:
         """
         self._count(problem, solved.steps, solved.krylov)
         self.lines.append(f"{what}: converged in {solved.steps} Newton steps, {solved.krylov} Krylov iterations")
+        smallest = float(solved.fields.volume.min())
+        self._last = f"the last solution on the way was at {what}, its smallest volume ratio {smallest:.2g}"
 
     def left(self, problem: SlidingContact, what: str, stalled: Stalled) -> None:
         """Record a failure.
@@ -110,7 +119,7 @@ class AttemptLog:
         """
         if self.work > (_MOST_WORK if finest_waves(load.road) == 1 else _MOST_WORK_MANY):
             measure = f"distance from balance and contact, over the road's amplitude, at last ({what})"
-            raise NotConverged(problem.label, self.steps, residual, measure, _SPENT)
+            raise NotConverged(problem.label, self.steps, residual, measure, f"{_SPENT}: {self.measured}")
 
 
 def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, log: AttemptLog) -> Solved:
@@ -159,7 +168,7 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
             log.steps,
             stalled.residual,
             "distance from balance and contact, over the road's amplitude,",
-            "every way to a solution stalls: the road may be too steep, or the load too heavy, for the rubber",
+            f"every way to a solution stalls: {log.measured}",
         ) from stalled
 
 
