@@ -37,7 +37,8 @@ def assert_refused(fresh: Project, done: subprocess.CompletedProcess[str], sente
         ),
         pytest.param(
             "grid: {velocity: [1]}",
-            "grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect (did you mean velocities?)",
+            "grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect, temperatures "
+            "(did you mean velocities?)",
             marks=pytest.mark.thorough,
         ),
         pytest.param(
