@@ -37,7 +37,9 @@ def test_stated_error_covers_what_the_fit_misses_for_95_percent_of_random_rubber
             frequency = low * (high / low) ** rng.uniform()
             road = SineScale(*((0.015, 35.0) if rng.uniform() < 0.5 else (0.002, 300.0)))
             speed, pressure = frequency / road.wavenumber, 10.0 ** rng.uniform(-0.7, 1.0)
-            scene = Scene(1, road, speed, pressure, 0.75, fitted.material, "stress", numerics, "small", fitted.measured)
+            scene = Scene(
+                1, road, speed, pressure, 0.75, fitted.material, "stress", numerics, "small", measured=fitted.measured
+            )
             result, right = simulate(scene), simulate(replace(scene, material=true, measured=None))
             wanted = float(right["friction_coefficient"])
             missed.append(abs(float(result["friction_coefficient"]) - wanted) / wanted)

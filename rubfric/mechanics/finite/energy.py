@@ -38,7 +38,8 @@ def evaluate_finite(solution: FiniteSolution) -> Energies:
         dissipation=float((lost * finite.weights).sum() / (scene.velocity * force)),
         contact=solution.friction.contact,
         depth_profile=rows_to_nodes(np.diff(block.row_positions), cells),
-        density=nodal_density(finite, stored)[:, ::stride],
+        # Harmonics, of which layers are made even, pass below zero where there is next to nothing.
+        density=np.maximum(nodal_density(finite, stored)[:, ::stride], 0.0),
         displacement=np.ascontiguousarray(displacement.swapaxes(0, 1)[..., ::stride]),
         resolution=solution.friction.resolution,
     )
