@@ -42,7 +42,7 @@ def number(key: str, value: Any) -> float:
         converted = math.inf
     if not math.isfinite(converted):
         raise InvalidInput(f"{key} is {converted}, but must be a finite number")
-    return float(f"{converted:.{SIGNIFICANT_DIGITS}g}") + 0.0  # no minus zero
+    return rounded(converted) + 0.0  # no minus zero
 
 
 def _yaml_hint(text: str) -> str:
@@ -91,6 +91,17 @@ def with_unit(value: Any, unit: str) -> str:
     """Return a number, or whatever else it is, with its unit as a message shows it."""
     text = f"{value:g}" if isinstance(value, float) else shown(value)
     return f"{text} {unit}" if unit else text
+
+
+def rounded(value: float, digits: int = SIGNIFICANT_DIGITS) -> float:
+    """Return a number to some significant digits, by default those in which numbers are compared.
+
+    Parameters
+    ----------
+    value : float
+    digits : int
+    """
+    return float(f"{value:.{digits}g}")
 
 
 def written(value: float) -> str:

@@ -19,6 +19,8 @@ from rubfric.rubber.fitted import FittedRubber
 
 # What of the package a fit depends on.
 _CODE = Path(__file__).resolve().parents[1]
+# What this process has fitted, by the digest of its name, data, options and code.
+_FITTED: dict[str, FittedRubber] = {}
 
 
 def fitted_rubber(name: str, entry: MeasuredRubber, kept: str | os.PathLike[str] | None = None) -> FittedRubber:
@@ -94,24 +96,17 @@ def arguments(name: str, entry: MeasuredRubber) -> tuple[Any, ...]:
     return entry.measurements, name, reading, options, Bulk(entry.poissons_ratio, entry.bulk_modulus)
 
 
-@lru_cache(maxsize=64)
-def _remembered(digest: str) -> dict[str, FittedRubber]:
-    """Return what holds the fit of this digest in this process."""
-    return {}
-
-
 def _fit(digest: str, name: str, entry: MeasuredRubber) -> FittedRubber:
-    known = _remembered(digest)
-    if name not in known:
+    if digest not in _FITTED:
         from rubfric.dma.fitted import fitted
 
         found = fitted(*arguments(name, entry))
-        known[name] = replace(
+        _FITTED[digest] = replace(
             found,
             material=replace(found.material, density=entry.density),
             warnings=tuple(map(_in_config, found.warnings)),
         )
-    return known[name]
+    return _FITTED[digest]
 
 
 def _read(place: Path, digest: str) -> FittedRubber | None:

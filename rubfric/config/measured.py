@@ -11,7 +11,8 @@ from rubfric import checks
 from rubfric.config.entries import Entry
 from rubfric.config.place import Place
 from rubfric.errors import InvalidInput
-from rubfric.rubber.material import COLDEST, HOTTEST, Material
+from rubfric.rubber.material import Material
+from rubfric.rubber.shift import degrees
 from rubfric.rules import HERE, Choice, Integer, Number, Rule, rules
 
 _QUANTITIES = ("frequency", "temperature", "storage", "loss", "complex", "tan_delta", "phase")
@@ -38,7 +39,7 @@ class MeasuredRubber(Entry):
     ]
     reference_temperature: Annotated[
         float | None,
-        Number("Temperature at which it slides; without, 20 where that was measured.", "degC", COLDEST, HOTTEST),
+        degrees("Temperature at which it slides; without, 20 where that was measured."),
     ] = None
     law: Annotated[
         str,

@@ -19,10 +19,11 @@ from rubfric.config.measured import MeasuredRubber
 from rubfric.config.multiscale import WAYS
 from rubfric.config.place import Place
 from rubfric.config.rig import RigChoice
-from rubfric.config.temperature import ShiftChoice, degrees, rubber_of
+from rubfric.config.temperature import ShiftChoice, rubber_of
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
+from rubfric.rubber.shift import degrees
 from rubfric.rules import HERE, Choice, Integer, Items, Number, Word, rules
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
 from rubfric.scene.procedure import Procedure, check_wavelengths
@@ -40,7 +41,7 @@ class Grid(Entry):
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
     temperatures: Annotated[
         tuple[float, ...],
-        Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(""), least=0),
+        Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(), least=0),
     ] = ()
 
 

@@ -12,9 +12,9 @@ from pydantic import create_model, model_validator
 from rubfric.checks import written
 from rubfric.config.entries import Entry, keys
 from rubfric.errors import InvalidInput
-from rubfric.rubber.material import COLDEST, HOTTEST, Material
+from rubfric.rubber.material import Material
 from rubfric.rubber.shift import Shift, ShiftedRubber
-from rubfric.rules import HERE, Number, rules
+from rubfric.rules import HERE, rules
 
 
 def _sound(shift: Any) -> Any:
@@ -36,11 +36,6 @@ else:
         **keys(Shift, rules(Shift), {one.name: one.default for one in fields(Shift) if one.default is not MISSING}),
         __validators__={"_sound": model_validator(mode="after")(_sound)},
     )
-
-
-def degrees(about: str) -> Number:
-    """Return the rule of a temperature, degC."""
-    return Number(about, "degC", COLDEST, HOTTEST)
 
 
 def rubber_of(name: str, entry: Mapping[str, Any]) -> tuple[Material, Shift | None]:

@@ -6,9 +6,9 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from rubfric.checks import SIGNIFICANT_DIGITS
+from rubfric import checks
 from rubfric.dma.measurements import Measurements
-from rubfric.dma.result import Fit
+from rubfric.dma.result import Fit, rounded
 from rubfric.errors import InvalidInput
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import ShiftedRubber
@@ -19,8 +19,6 @@ POISSONS_RATIO = 0.49
 _LEAST_SHARE, _SMALL_SHARE = 1e-8, 1e-4
 # Relaxation times, s, beyond those of any sliding.
 _SHORTEST, _LONGEST = 1e-20, 1e20
-# Digits of a fit that do not hang on the round-off of the machine; noise takes the others.
-_DIGITS = 6
 
 
 def as_shear(data: Measurements, bulk_modulus: float) -> Measurements:
@@ -59,11 +57,6 @@ def series(fit: Fit) -> tuple[float, tuple[float, ...], tuple[float, ...]]:
     kept = (fit.times > _SHORTEST) & (fit.times < _LONGEST) & (fit.moduli > 0.0)
     static = rounded(fit.static + math.fsum(fit.moduli[fit.times >= _LONGEST]))
     return static, tuple(map(rounded, fit.moduli[kept])), tuple(map(rounded, fit.times[kept]))
-
-
-def rounded(value: float) -> float:
-    """Return a number to the digits of a fit that do not hang on round-off."""
-    return float(f"{value:.{_DIGITS}g}")
 
 
 def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_modulus: float | None = None) -> Material:
@@ -137,10 +130,9 @@ def config_entry(material: Material) -> dict[str, Any]:
     ----------
     material : Material
     """
-    digits = SIGNIFICANT_DIGITS
     return {
-        "youngs_modulus": float(f"{material.youngs_modulus:.{digits}g}"),
-        "poissons_ratio": float(f"{material.poissons_ratio:.{digits}g}"),
+        "youngs_modulus": checks.rounded(material.youngs_modulus),
+        "poissons_ratio": checks.rounded(material.poissons_ratio),
         "shear_fractions": list(material.shear_fractions),
         "relaxation_times": list(material.relaxation_times),
         "moduli": material.moduli,

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rubfric.dma.bootstrap import Bands, bootstrap
-from rubfric.dma.entry import POISSONS_RATIO, as_shear, rounded, rubber, series
+from rubfric.dma.entry import POISSONS_RATIO, as_shear, rubber, series
 from rubfric.dma.fit import fit
 from rubfric.dma.measurements import ISOTHERM, read
-from rubfric.dma.result import Fit, Options
+from rubfric.dma.result import Fit, Options, rounded
 from rubfric.rubber.fitted import FittedRubber, Measured, Sample
 from rubfric.rubber.material import Material
 
@@ -85,13 +85,12 @@ def assemble(found: Fit, material: Material, bands: Bands | None = None) -> Fitt
     bands : Bands, optional
         Fits of resampled data.
     """
-    shift, low_high = found.shift(), found.window
-    fits = bands.samples if bands else ()
+    fits, (low, high) = bands.samples if bands else (), found.window
     shifts = tuple(own for each in fits if (own := each.shift()) is not None)
     return FittedRubber(
         material,
-        shift,
-        Measured((rounded(low_high[0]), rounded(low_high[1])), tuple(_sample(each, material) for each in fits)),
+        found.shift(),
+        Measured((rounded(low), rounded(high)), tuple(_sample(each, material) for each in fits)),
         shifts,
         (*found.warnings, *found.data.notes),
     )

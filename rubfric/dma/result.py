@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rubfric import checks
 from rubfric.arrays import Real
 from rubfric.dma.joint import Joint, window
 from rubfric.dma.judge import Deviation
@@ -18,6 +19,8 @@ from rubfric.rubber.shift import Shift
 # Residuals worth a word, and what to do.
 _POOR = 0.05
 _REMEDY = "see its residuals and the van Gurp-Palmen plot, and try --vertical or more branches a decade"
+# Digits of a fit that do not hang on the round-off of the machine; noise takes the others.
+_DIGITS = 6
 
 
 @dataclass(frozen=True)
@@ -135,17 +138,16 @@ class Fit:
         table: dict[str, Any] = {}
         vertical = "table" if self.options.vertical == "free" else self.options.vertical
         if self.law == "free":
-            table["log_factors"] = tuple(float(f"{each:.6g}") for each in self.log_shifts)
+            table["log_factors"] = tuple(map(rounded, self.log_shifts))
         if vertical == "table":
-            table["log_moduli"] = tuple(float(f"{each:.6g}") for each in self.log_scales)
+            table["log_moduli"] = tuple(map(rounded, self.log_scales))
         if table:
-            table["temperatures"] = tuple(float(f"{each:.6g}") for each in self.data.temperatures)
+            table["temperatures"] = tuple(map(rounded, self.data.temperatures))
         reference = self.reference
         if self.law == "wlf":
-            c1, c2 = (float(f"{each:.6g}") for each in (self.c1, self.c2))
-            return Shift("wlf", reference, c1=c1, c2=c2, vertical=vertical, **table)
+            return Shift("wlf", reference, c1=rounded(self.c1), c2=rounded(self.c2), vertical=vertical, **table)
         if self.law == "arrhenius":
-            energy = float(f"{self.activation_energy:.6g}")
+            energy = rounded(self.activation_energy)
             return Shift("arrhenius", reference, activation_energy=energy, vertical=vertical, **table)
         return Shift("table", reference, vertical=vertical, **table)
 
@@ -190,3 +192,8 @@ def assembled(
         deviations=deviations,
         warnings=tuple(warnings),
     )
+
+
+def rounded(value: float) -> float:
+    """Return a number to the digits of a fit that do not hang on round-off."""
+    return checks.rounded(value, _DIGITS)

@@ -17,11 +17,11 @@ from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.selection import BEYOND, friction, friction_error, pick, rubber_error, written
+from rubfric.results.selection import BEYOND, WORTH_A_WORD, friction, friction_error, pick, rubber_error, written
 
 Array = NDArray[np.float64]
-# Points of which more than this share of friction comes from frequencies at which the rubber was not measured.
-WORTH, _CROSS = 0.01, "beyond"
+# Points at which friction is an extrapolation of the rubber's data.
+_CROSS = "beyond"
 
 
 @style.applied()
@@ -72,7 +72,7 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
             mark_peak(panel, speeds, line.values, look["color"])
             if BEYOND in campaign:
                 share = pick(campaign, BEYOND, aspect=aspect, scale=scale, pressure=pressure)
-                _cross(panel, speeds, line.where(share > WORTH).values)
+                _cross(panel, speeds, line.where(share > WORTH_A_WORD).values)
     scale_speeds(axes[0], speeds)
     scale_friction(axes[0], upper(grid.values, errors.values))
     panels.entitle(axes, _titles(scales, micro))

@@ -8,6 +8,11 @@ from rubfric.figures import panels, style
 from rubfric.results.selection import written
 
 
+def temperature_words(temperature: float | None) -> list[str]:
+    """Return the sentence of a note on a temperature in degC; none where there is none."""
+    return [] if temperature is None else [f"Rubber at {written(temperature)} °C."]
+
+
 def name_temperature(figure: Figure, temperature: float | None) -> Figure:
     """Return a figure with its temperature in the note below the panels; as it is where there is none.
 
@@ -21,5 +26,5 @@ def name_temperature(figure: Figure, temperature: float | None) -> Figure:
     """
     if temperature is not None and figure.get_layout_engine() is not None:
         with style.applied():
-            panels.write_note(figure, [*figure.get_supxlabel().splitlines(), f"Rubber at {written(temperature)} °C."])
+            panels.write_note(figure, [*figure.get_supxlabel().splitlines(), *temperature_words(temperature)])
     return figure

@@ -16,12 +16,11 @@ import numpy as np
 from rubfric.arrays import Real
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.layer_contact import Layer, sample_friction
+from rubfric.results.selection import WORTH_A_WORD
 from rubfric.scene.scene import Scene
 
 # Standard errors in a band of 95 %.
 _BAND = 1.96
-# Share of friction beyond the measured window that is worth a word.
-_WORTH = 0.01
 
 
 def harmonics(solution: SteadySolution) -> Real:
@@ -84,9 +83,9 @@ def beyond_warning(solution: SteadySolution) -> list[str]:
     low, high = measured.window
     lowest = float(_frequencies(solution)[0])
     found = []
-    if below > _WORTH:
+    if below > WORTH_A_WORD:
         found.append(f"{below:.0%} of friction comes from below {low:.3g} rad/s (the road excites {lowest:.3g})")
-    if above > _WORTH:
+    if above > WORTH_A_WORD:
         found.append(
             f"{above:.0%} of friction comes from above {high:.3g} rad/s (the road excites {lowest:.3g} and more)"
         )

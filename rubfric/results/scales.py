@@ -8,6 +8,8 @@ import xarray as xr
 WAYS = ("sum", "direct", "corrected", "cascade", "persson")
 AXES = ("velocity_mm_per_s", "pressure_MPa")
 TOTAL = ("friction_total", "friction_total_error")
+# What the data of a measured rubber leave open of it.
+RUBBER_PART = "friction_rubber_error"
 # Columns of that table that are text.
 WORDS = ("way", "note")
 

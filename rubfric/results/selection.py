@@ -24,6 +24,8 @@ REFUSALS = "refusals"
 DRAWS, ROAD_ERROR = "draws", "friction_road_error"
 # What the data of a measured rubber leave open of friction, and how much of that comes from frequencies not measured.
 RUBBER_ERROR, BEYOND = "friction_coefficient_rubber_error", "friction_beyond_window"
+# Share of friction beyond the measured frequencies that is worth a word.
+WORTH_A_WORD = 0.01
 # With fewer points no peak can lie between others.
 _FEWEST = 3
 

@@ -12,7 +12,7 @@ import xarray as xr
 
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
-from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
+from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WAYS, WORDS, total_error, total_friction
 from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, check_variables, refusals
 from rubfric.results.tables import by_temperature
 from rubfric.results.temperature import at_temperature
@@ -25,8 +25,6 @@ ONE_ROAD = "one road with these phases"
 # The ways that are models of the coupling; the direct total is what they are judged by.
 MODELS = tuple(way for way in WAYS if way != "direct")
 _PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error")
-# And of a measured rubber.
-RUBBER_PART = "friction_rubber_error"
 
 
 class _Total(NamedTuple):

@@ -65,7 +65,7 @@ class Sample:
         """Return the series with times and moduli multiplied by a_T and b_T, to five digits."""
 
         def scaled(values: tuple[float, ...], factor: float) -> tuple[float, ...]:
-            return tuple(float(f"{factor * value:.{_DIGITS}g}") for value in values)
+            return tuple(checks.rounded(factor * value, _DIGITS) for value in values)
 
         (static,) = scaled((self.static,), modulus)
         return Sample(static, scaled(self.moduli, modulus), scaled(self.times, time))
@@ -144,7 +144,7 @@ class FittedRubber:
             sample.shifted(shift.factor(temperature), shift.modulus_factor(temperature))
             for sample, shift in zip(self.measured.samples, self.shifts, strict=True)
         )
-        window = (_canonical(low / factor), _canonical(high / factor))
+        window = (checks.rounded(low / factor), checks.rounded(high / factor))
         return ShiftedRubber(self.material, self.shift).at(temperature), Measured(window, samples)
 
     @property
@@ -176,7 +176,3 @@ class FittedRubber:
         measured = Measured.from_parameters(given["measured"])
         shifts, warnings = tuple(map(shift, given["shifts"])), tuple(given["warnings"])
         return cls(material, own, measured, shifts, warnings, given["source"])
-
-
-def _canonical(value: float) -> float:
-    return float(f"{value:.{checks.SIGNIFICANT_DIGITS}g}")

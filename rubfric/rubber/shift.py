@@ -18,21 +18,24 @@ import numpy as np
 
 from rubfric import checks
 from rubfric.errors import InvalidInput
-from rubfric.rubber.material import COLDEST, HOTTEST, Material
+from rubfric.rubber.material import Material
 from rubfric.rules import Choice, Items, Number, check_fields
 
 LAWS = ("wlf", "arrhenius", "table")
 VERTICAL = ("none", "entropic", "table")
 # 0 degC in K, and the gas constant in kJ/(mol K).
 KELVIN, GAS = 273.15, 8.314462618e-3
+# Temperatures at which something is still called rubber, degC.
+_COLDEST, _HOTTEST = -200.0, 500.0
 # By how much the reference may lie beyond a table, K: isotherms stray from their nominal temperature.
 _BEYOND = 1.01
 
 _NEEDS = {"wlf": ("c1", "c2"), "arrhenius": ("activation_energy",), "table": ("temperatures", "log_factors")}
 
 
-def _temperature(about: str) -> Number:
-    return Number(about, "degC", COLDEST, HOTTEST)
+def degrees(about: str = "") -> Number:
+    """Return the rule of a temperature of rubber, degC."""
+    return Number(about, "degC", _COLDEST, _HOTTEST)
 
 
 def _column(about: str, low: float, high: float, unit: str = "") -> Items:
@@ -52,12 +55,12 @@ class Shift:
     """
 
     law: Annotated[str, Choice("The law of a_T.", LAWS)]
-    reference_temperature: Annotated[float, _temperature("Temperature at which a_T = b_T = 1.")]
+    reference_temperature: Annotated[float, degrees("Temperature at which a_T = b_T = 1.")]
     c1: Annotated[float | None, Number("C1 of the WLF equation, in decades (base 10).", low=1e-3, high=1e4)] = None
     c2: Annotated[float | None, Number("C2 of the WLF equation.", "K", 1e-3, 1e6)] = None
     activation_energy: Annotated[float | None, Number("Activation energy E_a.", "kJ/mol", 1e-3, 1e5)] = None
     temperatures: Annotated[
-        tuple[float, ...], _column("Temperatures of a table, ascending.", COLDEST, HOTTEST, "degC")
+        tuple[float, ...], _column("Temperatures of a table, ascending.", _COLDEST, _HOTTEST, "degC")
     ] = ()
     log_factors: Annotated[
         tuple[float, ...], _column("Logarithms (base 10) of a_T at these temperatures, descending.", -100.0, 100.0)
@@ -108,7 +111,7 @@ class Shift:
         InvalidInput
             For a temperature that the law does not reach: beyond the table, or at or below T_ref - C2.
         """
-        at = _temperature("").check("temperature", temperature)
+        at = degrees().check("temperature", temperature)
         change = at - self.reference_temperature
         if self.law == "wlf":
             c1, c2 = self.c1 or 0.0, self.c2 or 0.0
@@ -129,7 +132,7 @@ class Shift:
 
     def modulus_factor(self, temperature: float) -> float:
         """Return b_T, by which moduli are multiplied, at a temperature in degC."""
-        at = _temperature("").check("temperature", temperature)
+        at = degrees().check("temperature", temperature)
         if self.vertical == "table":
             return 10.0 ** self._interpolated(at, self.log_moduli)
         return (at + KELVIN) / (self.reference_temperature + KELVIN) if self.vertical == "entropic" else 1.0

@@ -14,7 +14,8 @@ from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.fitted import Measured
-from rubfric.rubber.material import COLDEST, HOTTEST, PLANES, Material
+from rubfric.rubber.material import PLANES, Material
+from rubfric.rubber.shift import degrees
 from rubfric.rules import Choice, Integer, Number, check_fields
 from rubfric.scene.numerics import Numerics
 
@@ -81,7 +82,7 @@ class Scene:
     plane: Annotated[str, Choice(words=PLANES)] = "stress"
     numerics: Numerics = field(default_factory=Numerics)
     kinematics: Annotated[str, Choice(words=KINEMATICS)] = "auto"
-    temperature: Annotated[float | None, Number(unit="degC", low=COLDEST, high=HOTTEST)] = None
+    temperature: Annotated[float | None, degrees()] = None
     measured: Measured | None = None
 
     def __post_init__(self) -> None:

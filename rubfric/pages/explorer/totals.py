@@ -11,14 +11,13 @@ import xarray as xr
 
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
-from rubfric.results.scales import AXES, TOTAL, WORDS
+from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WORDS
 from rubfric.results.selection import DRAWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
 WAYS = ("sum", "corrected", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
-_RUBBER_PART = "friction_rubber_error"  # of a measured rubber
 # Points among which the lowest and the highest of the road are found.
 _POINTS = 16384
 
@@ -43,7 +42,7 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
     """
     pairs = {way: (f"friction_{way}", f"friction_{way}_error") for way in WAYS}
     parts = {part: f"friction_{part}_error" for part in _PARTS}
-    parts |= {"rubber": _RUBBER_PART} if _RUBBER_PART in table else {}
+    parts |= {"rubber": RUBBER_PART} if RUBBER_PART in table else {}
     numbers = [name for pair in pairs.values() for name in pair] + list(TOTAL)
     check_columns(table, "table of totals", ("way",), [*AXES, *parts.values()], numbers)
     columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])

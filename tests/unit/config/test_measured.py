@@ -112,7 +112,7 @@ def test_a_rubber_without_measurements_is_as_before() -> None:
 def test_same_data_options_and_code_are_fitted_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = fitting.fitted_rubber("mine", entry(), tmp_path)
     fits: list[str] = []
-    fitting._remembered.cache_clear()
+    fitting._FITTED.clear()
 
     def fit(digest: str, *_: Any) -> Any:
         fits.append(digest)
