@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, replace
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Discriminator, Tag, create_model, model_validator
@@ -201,8 +202,9 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_rubber(given: Any) -> str:
-    """Return the tag of a rubber that is measured, or of one that is given."""
-    measured = isinstance(given, MeasuredRubber) or (isinstance(given, Mapping) and "measurements" in given)
+    """Return the tag of a rubber that is measured, by its key or one that is misspelt, or of one that is given."""
+    keys = given if isinstance(given, Mapping) else ()
+    measured = isinstance(given, MeasuredRubber) or any(get_close_matches(str(key), ["measurements"]) for key in keys)
     return f"{HERE}{'measured' if measured else 'given'}"
 
 

@@ -109,6 +109,15 @@ def test_a_rubber_without_measurements_is_as_before() -> None:
         load(CONFIG, {"rubbers": {"mine": {"youngs_modulus": 3}}})
 
 
+def test_a_misspelt_key_of_measurements_is_asked_about_as_one() -> None:
+    with pytest.raises(InvalidInput) as error:
+        load(CONFIG, {"rubbers": {"mine": {"measurments": "dma.csv"}}})
+    missing, unknown = error.value.faults
+    assert missing == "rubbers.mine lacks the key 'measurements'"
+    assert unknown.startswith("rubbers.mine has the unknown key 'measurments'; allowed are measurements, ")
+    assert unknown.endswith("(did you mean measurements?)")
+
+
 def test_same_data_options_and_code_are_fitted_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = fitting.fitted_rubber("mine", entry(), tmp_path)
     fits: list[str] = []
