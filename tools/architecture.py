@@ -36,7 +36,7 @@ WAY = {
 # A colour for the rooms of each part of the story: line, ground.
 _COLOURS = {
     "errors arrays checks checksums files markdown rules streams": ("#7b8794", "#f5f7fa"),
-    "rubber road dma decks scene config": ("#0f766e", "#effaf8"),
+    "rubber road columns dma decks scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
     "results simulation marching": ("#1a6e8e", "#eef7fb"),
     "rig studies figures": ("#a16207", "#fdf8ea"),

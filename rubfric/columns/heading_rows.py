@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from rubfric.columns.clock import looks_like_clock
+from rubfric.columns.numerals import is_mark, looks_numeric, parted, plain
+from rubfric.columns.units import heading_words, is_unit, split_heading, unit_of
 from rubfric.errors import InvalidInput
-from rubfric.rig.clock import looks_like_clock
-from rubfric.rig.numerals import is_mark, looks_numeric, parted, plain
-from rubfric.rig.units import heading_words, is_unit, split_heading, unit_of
 
 # Lines of headings at most.
 MOST_HEADINGS = 6

@@ -7,13 +7,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from rubfric.columns.format import SEPARATORS
+from rubfric.columns.heading_rows import MOST_HEADINGS, Row, block, fitting, heading_row, is_number, units
+from rubfric.columns.numerals import is_mark, looks_numeric
 from rubfric.errors import InvalidInput
-from rubfric.rig.format import SEPARATORS
-from rubfric.rig.heading_rows import MOST_HEADINGS, Row, block, fitting, heading_row, is_number, units
-from rubfric.rig.numerals import is_mark, looks_numeric
 
-# Lines by which the layout is recognised, and numbers that a row must have.
-_LOOKED_AT, _FEWEST = 1000, 3
+# Lines by which the layout is recognised, and numbers that a row must have by default.
+_LOOKED_AT, FEWEST = 1000, 3
 # Part of all rows that the one table to read has, unless the user names it.
 _MAIN = 0.9
 
@@ -47,7 +47,12 @@ class Layout:
 
 
 def find_layout(
-    path: str, lines: Sequence[str], names: Sequence[str], separator: str | None = None, heading_line: int | None = None
+    path: str,
+    lines: Sequence[str],
+    names: Sequence[str],
+    separator: str | None = None,
+    heading_line: int | None = None,
+    fewest: int = FEWEST,
 ) -> Layout:
     """Return where the table is.
 
@@ -65,6 +70,8 @@ def find_layout(
         A key of ``SEPARATORS``; the one that gives most numbers by default.
     heading_line : int, optional
         Line of the headings, from 1; found by default.
+    fewest : int
+        Numbers that a row must have.
 
     Raises
     ------
@@ -74,13 +81,13 @@ def find_layout(
     head = lines[: (heading_line or 0) + _LOOKED_AT]
     below = heading_line or 0
     kinds = [separator] if separator else list(SEPARATORS)
-    counts = {kind: _body(split(head[below:], kind)) for kind in kinds}
+    counts = {kind: _body(split(head[below:], kind), fewest) for kind in kinds}
     kind = max(counts, key=lambda one: len(counts[one][0]) * counts[one][1])
     places, many = counts[kind]
     if not many:
         parted = f"{kind}s" if separator else "tabs, semicolons, commas, pipes or blanks"
         after = f" below line {heading_line}" if heading_line else ""
-        raise InvalidInput(f"{path} has no rows of at least {_FEWEST} numbers{after}, parted by {parted}")
+        raise InvalidInput(f"{path} has no rows of at least {fewest} numbers{after}, parted by {parted}")
     rows = split(lines, kind)
     tables = _tables(rows, below, places)
     tops = [heading_row(rows, block(rows, first, below), names) for first, _ in tables]
@@ -122,10 +129,10 @@ def split(lines: Sequence[str], kind: str) -> list[Row]:
     return rows
 
 
-def _body(rows: Sequence[Row]) -> tuple[tuple[int, ...], int]:
+def _body(rows: Sequence[Row], fewest: int) -> tuple[tuple[int, ...], int]:
     """Return the columns in which most rows of numbers have numbers, and how many rows are like that."""
     kinds = Counter(tuple(place for place, word in enumerate(row) if is_number(word)) for row in rows)
-    likely = Counter({places: count for places, count in kinds.items() if len(places) >= _FEWEST})
+    likely = Counter({places: count for places, count in kinds.items() if len(places) >= fewest})
     return likely.most_common(1)[0] if likely else ((), 0)
 
 

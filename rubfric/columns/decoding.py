@@ -28,6 +28,7 @@ _GUESSES = {
     "euc_jp": ("Japanese, EUC", "euc_jp"),
     "cp1251": ("Cyrillic", None),
 }
+_SPREADSHEETS = {b"\xd0\xcf\x11\xe0": "an Excel file (.xls)", b"PK\x03\x04": "an Excel file (.xlsx) or an archive"}
 _SYMBOLS = "°µ²³±·×§«»“”„‘’–—…€"
 # Bytes by which the encoding is guessed, and the share of zeros that makes text of two bytes a character.
 _LOOKED_AT, _ZEROS = 100_000, 0.3
@@ -64,9 +65,10 @@ def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, 
     known = known or _of_two_bytes(content)
     # A logger that lost its power leaves zeros, others an end-of-file mark.
     content = content if known else content.rstrip(b"\0\x1a")
+    sheet = next((name for mark, name in _SPREADSHEETS.items() if content.startswith(mark)), "")
     odd = len(content) - len(content.translate(None, _CONTROLS))
-    if known is None and (odd > _MOST_CONTROLS * len(content) or content.startswith(b"PK\3\4")):
-        raise InvalidInput(f"{path} is no text file: export the record as text (CSV)")
+    if known is None and (sheet or odd > _MOST_CONTROLS * len(content)):
+        raise InvalidInput(f"{path} is {sheet or 'no text file'}: export the table as text (CSV)")
     try:
         return content.decode(known or "utf-8").removeprefix("\ufeff"), ""
     except UnicodeDecodeError as error:
