@@ -31,12 +31,13 @@ _ASSETS = {
     "table": ("page.html", "page.css", "table.html"),
     "claims": ("page.html", "page.css", "claims.html"),
     "rubber": ("page.html", "page.css", "rubber.html"),
+    "road": ("page.html", "page.css", "road.html"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
 
 
 def assets(page: str) -> tuple[Path, ...]:
-    """Return the templates, styles and scripts of a page: ``table``, ``claims``, ``rubber`` or ``explorer``."""
+    """Return the templates, styles and scripts of a page: ``table``, ``claims``, ``rubber``, ``road``, ``explorer``."""
     return tuple(_FOLDER / name for name in _ASSETS[page])
 
 
