@@ -91,8 +91,8 @@ def _read(options: argparse.Namespace) -> int:
             Number("", unit, least, most).check(f"--{key.replace('_', '-')}", getattr(options, key))
     Integer("", 1, 12).check("--scales", options.scales)
     from rubfric.columns.format import Format  # heavy: only once the input is known to be right
-    from rubfric.pages.render import write_page
-    from rubfric.pages.road import lost, results, road_page, sentence
+    from rubfric.pages.render import sentence, write_page
+    from rubfric.pages.road import lost, results, road_page
     from rubfric.profile.analysis import analyse
     from rubfric.profile.cleaning import clean
     from rubfric.profile.reading import Options, read

@@ -154,8 +154,8 @@ def _fit(options: argparse.Namespace) -> int:
     from rubfric.dma.fit import fit
     from rubfric.dma.measurements import read
     from rubfric.dma.result import Options
-    from rubfric.pages.render import write_page
-    from rubfric.pages.rubber import results, rubber_page, sentence
+    from rubfric.pages.render import sentence, write_page
+    from rubfric.pages.rubber import results, rubber_page
 
     modulus = options.modulus or said.pop("modulus", None)
     said.pop("modulus", None)

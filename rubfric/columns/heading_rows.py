@@ -26,7 +26,7 @@ def is_number(word: str) -> bool:
     return looks_numeric(word) or looks_like_clock(word) or parted(word) is not None
 
 
-def block(rows: Sequence[Row], first: int, below: int) -> list[int]:
+def block(rows: Sequence[Row], first: int, below: int, least: int = 2) -> list[int]:
     """Return the lines of words right above the first row of numbers, from the nearest one on.
 
     Parameters
@@ -35,12 +35,14 @@ def block(rows: Sequence[Row], first: int, below: int) -> list[int]:
         Fields of all lines.
     first, below : int
         Where the numbers begin, and the line above which headings cannot be.
+    least : int
+        Fewest fields of a line of headings.
     """
     found: list[int] = []
     for place in range(first - 1, max(below, first - MOST_HEADINGS) - 1, -1):
         if not rows[place]:
             continue
-        if len(rows[place]) < 2 or any(map(is_number, rows[place])):
+        if len(rows[place]) < least or any(map(is_number, rows[place])):
             break
         found.append(place)
     return found

@@ -86,11 +86,12 @@ def find_layout(
     places, many = counts[kind]
     if not many:
         parted = f"{kind}s" if separator else "tabs, semicolons, commas, pipes or blanks"
+        numbers = "numbers" if fewest == 1 else f"at least {fewest} numbers"
         after = f" below line {heading_line}" if heading_line else ""
-        raise InvalidInput(f"{path} has no rows of at least {fewest} numbers{after}, parted by {parted}")
+        raise InvalidInput(f"{path} has no rows of {numbers}{after}, parted by {parted}")
     rows = split(lines, kind)
     tables = _tables(rows, below, places)
-    tops = [heading_row(rows, block(rows, first, below), names) for first, _ in tables]
+    tops = [heading_row(rows, block(rows, first, below, min(2, len(places))), names) for first, _ in tables]
     if heading_line:  # the table ends with the next headings, also where those are repeated
         tables, tops = tables[:1], [heading_line - 1]
     parts, top, notes = _chosen(path, rows, tables, tops)
@@ -99,7 +100,7 @@ def find_layout(
     if top is None:
         return Layout(kind, ("",) * width, ("",) * width, 0, body)
     headings = fitting(path, kind, lines[top], rows[top], (top + 1, body[0][0], width))
-    others = [place for place in block(rows, parts[0][0], below) if place != top]
+    others = [place for place in block(rows, parts[0][0], below, min(2, len(places))) if place != top]
     return Layout(kind, tuple(headings), tuple(units(rows, others, top, len(headings))), top + 1, body, tuple(notes))
 
 

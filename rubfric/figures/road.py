@@ -127,11 +127,9 @@ def _spectrum(found: Analysis) -> Figure:
         q = np.geomspace(law.low, law.high, 20)
         label = f"$H$ = {law.exponent:.2f} ± {law.error:.2f}"
         panel.plot(q, law.level * (q / law.reference) ** -(1.0 + 2.0 * law.exponent), "k--", lw=0.9, label=label)
-    panel.set_title("grey: not to be trusted", loc="left")
     panel.axvline(2.0 * math.pi / found.cutoff, color=_REMOVED, lw=0.8, linestyle=":", label="cutoff")
     upper = panel.secondary_xaxis("top", functions=(_wavelength, _wavelength))
     upper.set_xlabel("wavelength (mm)")
-    panel.set_title("")
     _legend(panel, loc="lower left")
     return figure
 

@@ -54,6 +54,11 @@ def render(template: str, **values: Any) -> str:
     return _environment().get_template(template).render(values)
 
 
+def sentence(words: str) -> str:
+    """Return words as a sentence."""
+    return f"{words[:1].upper()}{words[1:]}."
+
+
 def write_page(page: str, path: str | os.PathLike[str]) -> None:
     """Write a page completely or not at all.
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from rubfric.figures.road import draw
 from rubfric.figures.style import png
-from rubfric.pages.render import render
+from rubfric.pages.render import render, sentence
 from rubfric.profile.analysis import Analysis
 
 _CAPTIONS = {
@@ -16,12 +16,16 @@ _CAPTIONS = {
     "height distribution": "Heights of the clean profile beside a normal distribution of the same variance.",
     "spectrum": "Power spectral density along the line, one-sided: its integral over q is the variance. Grey: not "
     "to be trusted.",
-    "slope and height by octave": "What each octave of wavelength holds. Friction grows with slopes; hatched: not to be "
+    "slope and height by octave": "What octaves of wavelength hold. Friction grows with slopes. Hatched: not to be "
     "trusted.",
     "mean profile depth": "Segments of 100 mm without waves below 2.4 mm and without their slope, their two highest "
     "points, and the mean of these.",
     "window": "The first window: made periodic by blending, and without waves shorter than the cutoff.",
 }
+
+
+# Figures as wide as the page.
+_DOUBLE = ("before and after", "mean profile depth", "window")
 
 
 def road_page(found: Analysis, name: str, entry: str) -> str:
@@ -55,13 +59,9 @@ def road_page(found: Analysis, name: str, entry: str) -> str:
             for one in found.octaves
         ],
         figures=figures,
+        double=_DOUBLE,
         entry=entry,
     )
-
-
-def sentence(words: str) -> str:
-    """Return words as a sentence."""
-    return f"{words[:1].upper()}{words[1:]}."
 
 
 def results(found: Analysis) -> Iterator[tuple[str, str]]:
@@ -94,7 +94,8 @@ def results(found: Analysis) -> Iterator[tuple[str, str]]:
         law = found.hurst
         between = f"from {2.0 * math.pi / law.high:.3g} to {2.0 * math.pi / law.low:.3g} mm"
         yield f"Hurst exponent, {between}", f"{law.exponent:.3f} ± {law.error:.3f} (95 %)"
-        yield "Fractal dimension of the profile, 2 - H", f"{2.0 - law.exponent:.3f}"
+        if 0.0 < law.exponent < 1.0:
+            yield "Fractal dimension of the profile, 2 - H", f"{2.0 - law.exponent:.3f}"
     yield "Windows", f"{found.windows} of {found.window:.4g} mm, {found.blend:.0%} of each blended"
     yield "Cutoff", f"{found.cutoff:g} mm"
 
@@ -113,7 +114,7 @@ def lost(found: Analysis) -> str:
     of_road = math.sqrt(found.spectrum.integral(0.0, 2.0 * math.pi / found.cutoff, 1))
     whole = float(heights.std())
     return (
-        f"{len(waves.amplitudes)} sines with an rms height of {height:.3g} mm (the profile: {whole:.3g} mm, with longer "
-        f"waves) and an rms slope of {slope:.3g} (the profile down to {found.cutoff:g} mm: {of_road:.3g}); its "
+        f"{len(waves.amplitudes)} sines with an rms height of {height:.3g} mm (the profile: {whole:.3g} mm, with "
+        f"longer waves) and an rms slope of {slope:.3g} (the profile down to {found.cutoff:g} mm: {of_road:.3g}); its "
         "phases, its height distribution and its steepest places are lost"
     )

@@ -20,8 +20,10 @@ from rubfric.road.waves import MOST_WAVES, WaveRoad
 
 # Length of a window, mm, unless another is given or the profile is too short.
 WINDOW = 40.0
-# Crest over root mean square of slopes above which sines of the same variance are far from the road.
-_DIGITS = 2
+# Digits of a cutoff that is found out; and the part of an octave's ends that has to lie in the trusted band.
+_DIGITS, _NEARLY = 2, 1.1
+# Part of the largest height within which heights are alike.
+_ALIKE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +74,9 @@ class Analysis:
         return window.road(self.cleaned.profile, self.window, self.cutoff, number, self.blend)
 
     def is_trusted(self, octave: Octave) -> bool:
-        """Return whether an octave lies in the trusted band with both its ends."""
+        """Return whether an octave lies in the trusted band with both its ends, or nearly so."""
         shortest, longest = self.band.wavelengths
-        half = math.sqrt(2.0)
+        half = math.sqrt(2.0) / _NEARLY
         return bool(octave.wavelength / half >= shortest and octave.wavelength * half <= longest)
 
     @property
@@ -96,8 +98,11 @@ class Analysis:
         yield from self.cleaned.warnings
         shortest = self.band.wavelengths[0]
         if self.cutoff < shortest * (1.0 - 1e-9):
+            yield (f"the cutoff, {self.cutoff:g} mm, is below the shortest wavelength to be trusted, {shortest:.3g} mm")
+        if self.hurst is not None and not 0.0 < self.hurst.exponent < 1.0:
             yield (
-                f"the cutoff, {self.cutoff:g} mm, is below the shortest wavelength to be trusted, {shortest:.3g} mm"
+                f"the spectrum falls with q^{-1.0 - 2.0 * self.hurst.exponent:.2g}, as that of no self-affine road does: "
+                "q^-1 to q^-3"
             )
         if self.windows < 2:
             yield "the profile holds one window: how friction scatters over the road cannot be told"
@@ -136,7 +141,7 @@ def analyse(
         not below the length of a window.
     """
     profile = cleaned.profile
-    if not np.ptp(profile.heights) > 0.0:
+    if np.ptp(profile.heights) <= _ALIKE * np.nanmax(np.abs(cleaned.measured.heights)):
         raise InvalidInput(f"{profile.source} is flat: all of its heights are alike but for tilt and form")
     spectrum = welch(profile)
     band = trusted(spectrum, profile.spacing)

@@ -30,7 +30,7 @@ def plates(heights: Real) -> tuple[int, int]:
     if np.count_nonzero(np.diff(np.signbit(level))) < _CROSSINGS:
         return 0, 0
     stretches = [_roughness(heights[at : at + 2 * size]) for at in range(0, len(heights) - 2 * size + 1, size)]
-    limit = _FLAT * float(np.nanmedian(stretches))
+    limit = _FLAT * float(np.median([one for one in stretches if one == one] or [0.0]))
     return _plate(heights, size, limit), _plate(heights[::-1], size, limit)
 
 

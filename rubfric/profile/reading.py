@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rubfric.arrays import Real
-from rubfric.columns.format import AS_FOUND, Format
+from rubfric.columns.decoding import decode
+from rubfric.columns.format import AS_FOUND, SEPARATORS, Format
 from rubfric.columns.textfile import TextTable, read_text, readable
 from rubfric.columns.units import check_factor, factor, heading_words, split_heading
 from rubfric.errors import InvalidInput
@@ -23,6 +24,8 @@ _USUAL = {
     "height": {"height", "heights", "z", "elevation", "profile", "raw", "y", "h", "texture", "level", "höhe", "total"}
     | {"profile height", "surface height", "z height", "depth", "amplitude", "laser", "texture height", "relief"},
 }
+# Lines in which headings are looked for that say what separates columns.
+_MOST_ABOVE = 300
 _WORDS = {"distance": {"distance", "lateral", "chainage"}, "height": {"height", "elevation", "profile", "texture"}}
 
 
@@ -104,7 +107,7 @@ def _line(scan: Scan, options: Options) -> Profile:
 
 def _from_text(path: str, options: Options) -> Profile:
     names = sorted(set[str]().union(*_USUAL.values()))
-    table = read_text(path, options.form, names, fewest=1)
+    table = _table(path, options.form, names)
     places = [_place(path, table, quantity, options) for quantity in ("distance", "height")]
     numeric = [at for at in range(table.values.shape[1]) if np.isfinite(table.values[:, at]).any()]
     notes = []
@@ -133,6 +136,21 @@ def _from_text(path: str, options: Options) -> Profile:
     assert places[0] is not None
     distances = table.values[:, places[0]] * _factor(path, table, places[0], "distance", options)
     return with_notes(at_distances(path, distances, heights, lines), *notes)
+
+
+def _table(path: str, form: Format, names: Sequence[str]) -> TextTable:
+    """Return the table of a file, whose separator is not easily found where heights are few or alone."""
+    if form.decimal == "comma" and form.separator is None:  # then a comma separates nothing
+        tables = (read_text(path, replace(form, separator=kind), names, 1) for kind in SEPARATORS if kind != "comma")
+        return next((table for table in tables if len(table.headings) > 1), None) or read_text(
+            path, replace(form, separator="semicolon"), names, 1
+        )
+    lines = decode(path, form.encoding, names)[0].splitlines()[:_MOST_ABOVE]
+    for kind, mark in SEPARATORS.items() if form.separator is None else ():
+        words = [{heading_words(part) for part in line.split(mark)} for line in lines if mark in line]
+        if any(_USUAL["distance"] & one and _USUAL["height"] & one for one in words):
+            return read_text(path, replace(form, separator=kind), names, 1)
+    return read_text(path, form, names, 1)
 
 
 def _with_blanks(table: TextTable, heights: Real, notes: list[str]) -> Real:

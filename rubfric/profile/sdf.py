@@ -12,8 +12,9 @@ from rubfric.errors import InvalidInput
 from rubfric.profile.scan import Scan
 
 _MARK = re.compile(rb"^\s*([ab])(ISO|BCR|NIST)-1\.\d")
-# Codes of the data types; integers have the least of their values where nothing was measured.
+# Codes of the data types, and the integers that stand where nothing was measured.
 _TYPES = {0: "u1", 1: "<u2", 2: "<u4", 3: "<f4", 4: "i1", 5: "<i2", 6: "<i4", 7: "<f8"}
+_MISSING = {1: 2**16 - 1, 2: 2**32 - 1, 5: -(2**15), 6: -(2**31)}
 _BINARY = struct.Struct("<8s10s12s12sHHddddBBB")
 _NEEDED = ("NumPoints", "NumProfiles", "Xscale", "Yscale", "Zscale")
 _BAD = ("BAD", "NAN", "*BAD*")
@@ -64,13 +65,8 @@ def _binary(path: str, content: bytes) -> tuple[dict[str, float], Real]:
     place = _BINARY.size
     held = np.dtype(_TYPES[kind])
     count = min(points * lines, (len(content) - place) // held.itemsize)
-    raw = np.frombuffer(content, held, count, place)
-    values = raw.astype(float)
-    if held.kind == "i":
-        values[raw == np.iinfo(held).min] = np.nan
-    else:
-        values[~(np.abs(values) < _BEYOND)] = np.nan
-    return dict(zip(_NEEDED, (points, lines, x, y, z), strict=True)), values
+    values = np.frombuffer(content, held, count, place).astype(float)
+    return dict(zip(_NEEDED, (points, lines, x, y, z), strict=True)), _known(values, kind)
 
 
 def _text(path: str, content: bytes) -> tuple[dict[str, float], Real]:
@@ -93,8 +89,12 @@ def _text(path: str, content: bytes) -> tuple[dict[str, float], Real]:
         values = np.array([np.nan if word.upper() in _BAD else float(word) for word in words])
     except ValueError as error:
         raise InvalidInput(f"{path} holds a word among its heights that is no number: {error}") from None
-    values[~(np.abs(values) < _BEYOND)] = np.nan
-    return found, values
+    return found, _known(values, codes[1])
+
+
+def _known(values: Real, kind: int) -> Real:
+    """Return heights with NaN where nothing was measured."""
+    return np.where((values == _MISSING.get(kind)) | ~(np.abs(values) < _BEYOND), np.nan, values)
 
 
 def _check(path: str, compression: int, kind: int) -> None:

@@ -47,4 +47,8 @@ def spikes(heights: Real) -> Flags:
         if limit <= 0.0 or not out.any():
             break
         found[known[out]] = True
+    # What several passes have worn away is a ledge of the road.
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], found.astype(np.int8), [0]))))
+    for begin, end in zip(edges[::2], edges[1::2], strict=True):
+        found[begin:end] = end - begin <= 2 * _WIDEST
     return found
