@@ -149,7 +149,11 @@ def _tables(rows: Sequence[Row], below: int, places: Sequence[int]) -> list[tupl
     found = []
     place = begin + 1
     while place < len(rows):
-        words = len(rows[place]) >= len(places) and all(rows[place]) and not any(map(is_number, rows[place]))
+        words = (
+            len(rows[place]) >= len(places)
+            and all(rows[place])
+            and not any(is_number(one) or is_mark(one) for one in rows[place])
+        )
         after = range(place + 1, min(place + 1 + MOST_HEADINGS, len(rows))) if words else ()
         follow = next((line for line in after if _is_like(rows[line], places)), None)
         if follow is not None:

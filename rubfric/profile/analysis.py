@@ -101,7 +101,7 @@ class Analysis:
             yield (f"the cutoff, {self.cutoff:g} mm, is below the shortest wavelength to be trusted, {shortest:.3g} mm")
         if self.hurst is not None and not 0.0 < self.hurst.exponent < 1.0:
             yield (
-                f"the spectrum falls with q^{-1.0 - 2.0 * self.hurst.exponent:.2g}, as that of no self-affine road does: "
+                f"the spectrum goes with q^{-1.0 - 2.0 * self.hurst.exponent:.2g}, which no self-affine road has: "
                 "q^-1 to q^-3"
             )
         if self.windows < 2:
