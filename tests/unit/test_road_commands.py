@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from synthetic_road import dropouts, self_affine
 
 from rubfric import load
 from rubfric.cli import main
+from rubfric.profile.virtual import as_measured, self_affine
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.fixture
 def street(tmp_path: Path, rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch) -> str:
     monkeypatch.chdir(tmp_path)
-    heights = dropouts(rng, self_affine(rng, 8192, 0.05, 0.8, 0.01, longest=30.0), 30, 20)
+    heights = as_measured(rng, self_affine(rng, 8192, 0.05, 0.8, 0.01, longest=30.0), 30, 20)[0]
     rows = "\n".join(f"{0.05 * at:.2f},{'' if np.isnan(z) else f'{z:.4f}'}" for at, z in enumerate(heights))
     Path("street.csv").write_text(f"distance (mm),height (mm)\n{rows}\n", encoding="utf-8")
     return "street.csv"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from synthetic_road import dropouts, self_affine
 
 import rubfric
 from rubfric import Scene, SineScale, WaveRoad
 from rubfric.profile.cleaning import clean
 from rubfric.profile.measured import Profile
+from rubfric.profile.virtual import as_measured, self_affine
 from rubfric.profile.window import count, road
 
 CAMPAIGN = rubfric.load()
@@ -38,8 +38,7 @@ def test_a_sine_with_tilt_gaps_and_spikes_comes_back_as_its_scene(velocity: floa
     rng = np.random.default_rng(3)
     x = 0.03125 * np.arange(20 * 64)
     heights = 0.1 * np.sin(np.pi * x) + 0.02 * x + 1.0
-    heights[rng.choice(len(x), 20, replace=False)] += rng.choice([-0.5, 0.5], 20)
-    cleaned = clean(Profile("road", 0.0, 0.03125, dropouts(rng, heights, 12, 5)))
+    cleaned = clean(Profile("road", 0.0, 0.03125, as_measured(rng, heights, 12, 5, 20, 0.5)[0]))
     found = friction(road(cleaned.profile, 8.0, 0.5), velocity, pressure)
     assert found == pytest.approx(friction(SineScale(0.1, np.pi), velocity, pressure), rel=0.01)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from synthetic_road import self_affine
 
 from rubfric.errors import InvalidInput
 from rubfric.profile.cleaning import clean
 from rubfric.profile.measured import Profile
+from rubfric.profile.virtual import self_affine
 
 SPACING = 0.05
 PLACE = np.arange(4000)

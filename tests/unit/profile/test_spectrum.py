@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from synthetic_road import self_affine
 
 from rubfric.errors import InvalidInput
 from rubfric.profile.analysis import analyse
@@ -15,6 +14,7 @@ from rubfric.profile.cleaning import clean
 from rubfric.profile.measured import Profile
 from rubfric.profile.scales import octaves, sines
 from rubfric.profile.spectrum import periodogram, welch
+from rubfric.profile.virtual import self_affine
 
 POINTS, SPACING, LEVEL = 2**14, 0.05, 0.01
 

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from synthetic_road import self_affine
 
 from rubfric.errors import InvalidInput
 from rubfric.profile.measured import Profile
+from rubfric.profile.virtual import self_affine
 from rubfric.profile.window import count, longest, road, window
 from rubfric.road.profile import ProfileRoad
 from rubfric.road.road import finest_waves
