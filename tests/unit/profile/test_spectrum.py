@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from rubfric.profile.analysis import analyse
 from rubfric.profile.band import hurst, trusted
 from rubfric.profile.cleaning import clean
 from rubfric.profile.measured import Profile
+from rubfric.profile.reading import read
 from rubfric.profile.scales import octaves, sines
 from rubfric.profile.spectrum import periodogram, welch
 from rubfric.profile.virtual import self_affine
@@ -109,3 +111,19 @@ def test_windows_and_cutoffs_that_a_profile_does_not_have(rng: np.random.Generat
             analyse(cleaned, **given)
     with pytest.raises(InvalidInput, match="is flat: all of its heights are alike"):
         analyse(clean(Profile("road", 0.0, SPACING, 3.0 + 0.1 * np.arange(500.0))))
+
+
+def test_the_example_is_found_as_it_was_made() -> None:
+    folder = Path(__file__).resolve().parents[3] / "examples/own_road"
+    found = analyse(clean(read(str(folder / "street.csv"))))
+    table = (folder / "README.md").read_text(encoding="utf-8")
+    assert found.hurst is not None
+    assert abs(found.hurst.exponent - 0.8) < found.hurst.error
+    assert dict(found.cleaned.removed)["Spikes"].startswith("25, of 25 points")
+    for value in (
+        f"| {found.hurst.exponent:.3f} ± {found.hurst.error:.3f} |",
+        f"| {found.moments[0]:.3f} |",
+        f"| {found.depth.mean:.3f} ± {found.depth.scatter:.2f} |",
+        f"| {found.slope:.3f} |",
+    ):
+        assert value in table
