@@ -19,7 +19,7 @@ from project_copy import Project
 from rubfric.results.dataset import load
 
 PATIENCE = 300.0  # s
-SCENES, WHOLE, BATCHES, READINGS, MARCHES, TABLES = 18, 4, 3, 1, 1, 5
+SCENES, WHOLE, BATCHES, READINGS, MARCHES, TABLES = 18, 4, 3, 2, 1, 5
 # Round-off, since the node of a cluster may have another processor: 1e-9 of a value, or of its unit.
 TOLERANCE = 1e-9
 SUBMITTED = "has been submitted with SLURM jobid"
