@@ -112,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
     init.set_defaults(run=_init)
     add_rig(commands, _configs)
     add_rubber(commands, _configs)
-    add_road(commands)
+    add_road(commands, _configs)
     return parser
 
 

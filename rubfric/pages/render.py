@@ -32,12 +32,13 @@ _ASSETS = {
     "claims": ("page.html", "page.css", "claims.html"),
     "rubber": ("page.html", "page.css", "rubber.html"),
     "road": ("page.html", "page.css", "road.html"),
+    "slide": ("page.html", "page.css", "slide.html"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
 
 
 def assets(page: str) -> tuple[Path, ...]:
-    """Return the templates, styles and scripts of a page: ``table``, ``claims``, ``rubber``, ``road``, ``explorer``."""
+    """Return the templates, styles and scripts of a page, ``table``, ``claims``, ``road``, ``explorer`` and so on."""
     return tuple(_FOLDER / name for name in _ASSETS[page])
 
 

@@ -7,9 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rubfric import load
+from rubfric import Scene, load
 from rubfric.cli import main
+from rubfric.errors import NotConverged
+from rubfric.profile.analysis import analyse
+from rubfric.profile.cleaning import clean
+from rubfric.profile.reading import read
 from rubfric.profile.virtual import as_measured, self_affine
+from rubfric.results.tables import read_table
+from rubfric.studies import windows
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -24,8 +30,9 @@ def street(tmp_path: Path, rng: np.random.Generator, monkeypatch: pytest.MonkeyP
 
 
 def test_from_a_profile_to_a_config_and_a_page(street: str, capsys: pytest.CaptureFixture[str]) -> None:
-    for _ in range(2):  # what it wrote itself it may write again
-        assert main(["road", "read", street, "--scales", "3", "--cutoff", "0.5"]) == 0
+    # What it wrote itself it may write again.
+    Path("road_street.yaml").write_text("# Written by rubfric road read, from street.csv\n", encoding="utf-8")
+    assert main(["road", "read", street, "--scales", "3", "--cutoff", "0.5"]) == 0
     said = capsys.readouterr().out
     for words in (
         "Gaps bridged",
@@ -58,3 +65,43 @@ def test_from_a_profile_to_a_config_and_a_page(street: str, capsys: pytest.Captu
 def test_wrong_arguments(arguments: list[str], words: str, street: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["road", "read", *arguments]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_sliding_over_windows_gives_friction_with_the_error_of_the_road(
+    street: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = ["road", "slide", street, "--velocity", "100", "10", "--pressure", "0.3", "--windows", "3"]
+    assert main([*given, "--kinematics", "small", "--plane", "strain", "--cutoff", "4", "2", "--accuracy", "0.05"]) == 0
+    assert "± " in capsys.readouterr().out
+    table = read_table("friction_street.csv", ["way", "note"])
+    direct = table[table["way"] == "direct"]
+    assert direct["windows"].tolist() == [3] * 4
+    assert direct["friction_road_error"].to_numpy() == pytest.approx(
+        direct["friction_scatter"] / np.sqrt(3.0), rel=1e-5
+    )
+    assert direct["friction_coefficient"].to_numpy() == pytest.approx(direct["friction_persson"], rel=0.4)
+    # A finer cutoff adds friction, and so does theory for the cutoffs beyond.
+    for _, rows in table.groupby("velocity_mm_per_s"):
+        assert rows["cutoff_mm"].is_monotonic_decreasing
+        assert rows["friction_coefficient"].is_monotonic_increasing
+        assert rows["way"].tolist()[:3] == ["direct", "direct", "persson"]
+    page = Path("friction_street.html").read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64,") == 2
+    assert main([*given, "--windows", "99"]) == 2
+    assert "--windows is 99, but the profile has 10 of 40 mm" in capsys.readouterr().err
+
+
+def test_a_window_that_is_refused_is_counted_and_left_out(street: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refusing(scene: Scene) -> dict[str, float]:
+        if scene.road.amplitudes[0] == roads[1].amplitudes[0]:
+            raise NotConverged(scene.name, 3, 0.5, "residual")
+        return dict.fromkeys(("friction_coefficient", "friction_coefficient_error", "contact_fraction"), 0.25)
+
+    found = analyse(clean(read(street)), cutoff=4.0, scales=1)
+    roads = [found.road(number) for number in (1, 2, 3)]
+    monkeypatch.setattr(windows, "simulate", refusing)
+    campaign = load()
+    block = windows.Block(campaign.material, 8.0, "strain", "small", campaign.numerics)
+    row = windows.slide(found, block, [100.0], [0.3], [4.0], 3).iloc[0]
+    assert (row["windows"], row["refused"], row["friction_coefficient"]) == (2, 1, 0.25)
+    assert row["note"].startswith("window 2: all_v100_p0.3")
