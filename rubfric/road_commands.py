@@ -209,9 +209,8 @@ def _slide(options: argparse.Namespace) -> int:
     )
     windows = options.windows or min(6, found.windows)
     lead = (
-        f"{campaign.material.name}, a block {block.height:g} mm high, plane {block.plane}, {block.kinematics} kinematics, "
-        f"over {windows} windows of {found.window:g} mm of "
-        f"{options.file}"
+        f"{campaign.material.name}, a block {block.height:g} mm high, plane {block.plane}, {block.kinematics} "
+        f"kinematics, over {windows} windows of {found.window:g} mm of {options.file}"
     )
     print(lead, flush=True)
     table = slide(

@@ -55,7 +55,7 @@ def _over_speed(table: pd.DataFrame) -> Figure:
 
 
 def _over_cutoff(table: pd.DataFrame) -> Figure:
-    figure = Figure(figsize=(COLUMN, _HEIGHT), layout="constrained")
+    figure = Figure(figsize=(COLUMN, 1.25 * _HEIGHT), layout="constrained")
     panel = figure.subplots()
     groups = list(table.groupby(["pressure_MPa", "velocity_mm_per_s"]))
     for look, ((pressure, speed), rows) in zip(kinds(len(groups)), groups, strict=True):
@@ -71,9 +71,14 @@ def _over_cutoff(table: pd.DataFrame) -> Figure:
         panel.plot([], [], "--", color="0.3", lw=0.9, label="finer waves by Persson's theory")
     panel.set(xscale="log", xlabel="largest wavenumber kept (1/mm)", ylabel="friction coefficient (-)")
     panel.set_ylim(bottom=0.0)
+    cutoffs = np.sort(table["cutoff_mm"].unique())
+    panel.set_xticks(2.0 * np.pi / cutoffs, [f"{2.0 * np.pi / one:.3g}" for one in cutoffs])
+    panel.minorticks_off()
     upper = panel.secondary_xaxis("top", functions=(_wavelength, _wavelength))
+    upper.set_xticks(cutoffs, [f"{one:g}" for one in cutoffs])
+    upper.minorticks_off()
     upper.set_xlabel("shortest wavelength kept (mm)")
-    figure.legend(*panel.get_legend_handles_labels(), loc="outside right upper", handlelength=1.6)
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", handlelength=1.6, ncols=2)
     return figure
 
 
