@@ -95,6 +95,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
         "--cutoff", type=float, nargs="+", metavar="X", help="shortest wavelengths kept, mm (default: 4, 2 and 1)"
     )
     slide.add_argument("--windows", type=int, metavar="N", help="how many (default: 6, or as many as there are)")
+    slide.add_argument("--scales", type=int, metavar="N", help="compare with so many sines (default: none)")
     slide.add_argument("--block-height", type=float, default=8.0, metavar="X", help="mm (default: 8)")
     slide.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     slide.add_argument("--kinematics", choices=KINEMATICS, help="small or finite strain (default: the config's)")
@@ -189,7 +190,7 @@ def _slide(options: argparse.Namespace) -> int:
     name = name_of(options.name, options.file)
     output = options.output or Path(f"friction_{name}.csv")
     check_output(output, "table", ("velocity_mm_per_s,pressure_MPa,cutoff_mm",))
-    _check(options, (*_READING, "cutoff", "velocity", "pressure", "windows", "block_height", "accuracy"))
+    _check(options, (*_READING, "cutoff", "velocity", "pressure", "windows", "scales", "block_height", "accuracy"))
     campaign = campaigns.load(*options.configs(options.config or []))
     from rubfric.pages.render import write_page
     from rubfric.pages.slide import slide_page
@@ -214,7 +215,7 @@ def _slide(options: argparse.Namespace) -> int:
     )
     print(lead, flush=True)
     table = slide(
-        *(found, block, options.velocity, options.pressure, cutoffs, windows),
+        *(found, block, options.velocity, options.pressure, cutoffs, windows, options.scales or 0),
         progress=lambda line: print(line, flush=True),
     )
     write_table(table, output)

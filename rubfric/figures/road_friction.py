@@ -46,6 +46,10 @@ def _over_speed(table: pd.DataFrame) -> Figure:
         draw_band(panel, speeds, friction, _errors(rows), look["color"])
         panel.plot(speeds, friction, lw=0.9, label=f"{pressure:g} MPa", **look)
         panel.plot(speeds, rows["friction_persson"], ":", lw=0.9, color=look["color"])
+        sines = table[(table["way"] == "sines") & (table["pressure_MPa"] == pressure)]
+        panel.plot(sines["velocity_mm_per_s"], sines["friction_coefficient"], "-.", lw=0.9, color=look["color"])
+    if (table["way"] == "sines").any():
+        panel.plot([], [], "-.", color="0.3", lw=0.9, label="sines of the same spectrum")
     panel.plot([], [], ":", color="0.3", lw=0.9, label="Persson's theory")
     panel.set(xscale="log", xlabel="sliding speed (mm/s)", ylabel="friction coefficient (-)")
     panel.set_ylim(bottom=0.0)
@@ -57,6 +61,7 @@ def _over_speed(table: pd.DataFrame) -> Figure:
 def _over_cutoff(table: pd.DataFrame) -> Figure:
     figure = Figure(figsize=(COLUMN, 1.25 * _HEIGHT), layout="constrained")
     panel = figure.subplots()
+    table = table[table["way"].isin(["direct", "persson"])]
     groups = list(table.groupby(["pressure_MPa", "velocity_mm_per_s"]))
     for look, ((pressure, speed), rows) in zip(kinds(len(groups)), groups, strict=True):
         waves = 2.0 * np.pi / rows["cutoff_mm"].to_numpy()

@@ -11,6 +11,7 @@ import pandas as pd
 from rubfric.figures.road_friction import draw
 from rubfric.figures.style import png
 from rubfric.pages.render import render, sentence
+from rubfric.studies.windows import WAYS
 
 _CAPTIONS = {
     "friction over speed": "Mean over the windows; the band is the standard error of the mean and the numerical error.",
@@ -27,7 +28,7 @@ _HEADINGS = (
         "Error: road",
         "Scatter of windows",
     ),
-    *("Contact", "Persson's theory", "Windows"),
+    *("Contact", "Persson's theory: friction", "contact", "Windows"),
 )
 
 
@@ -62,7 +63,10 @@ def _warnings(table: pd.DataFrame) -> Iterator[str]:
     refused = int(direct["refused"].sum())
     if refused:
         reason = next(note for note in direct["note"] if note)
-        yield sentence(f"{refused} scenes were refused and are left out of the means; the first: {reason}")
+        yield sentence(
+            f"{refused} scenes were refused: means there are over fewer windows, and not to be compared with others; the "
+            f"first: {reason}"
+        )
     for place, rows in direct.groupby(["pressure_MPa", "velocity_mm_per_s"]):
         friction = rows.sort_values("cutoff_mm")["friction_coefficient"].to_numpy()
         if len(friction) > 1 and friction[0] > 1.1 * friction[1]:
@@ -76,6 +80,6 @@ def _cells(row: pd.Series) -> list[str]:
     exact = row["way"] == "direct"
     numbers = ("friction_coefficient", "friction_numerical_error", "friction_road_error", "friction_scatter")
     cells = [f"{row[key]:g}" for key in ("velocity_mm_per_s", "pressure_MPa", "cutoff_mm")]
-    for key in (*numbers, "contact_fraction", "friction_persson"):
+    for key in (*numbers, "contact_fraction", "friction_persson", "contact_persson"):
         cells.append("" if math.isnan(row[key]) else f"{row[key]:.3g}")
-    return [*cells, f"{row['windows']:.0f}" if exact else "finer waves by theory"]
+    return [*cells, f"{row['windows']:.0f}" if exact else WAYS[row["way"]]]

@@ -71,7 +71,7 @@ def test_sliding_over_windows_gives_friction_with_the_error_of_the_road(
     street: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     given = ["road", "slide", street, "--velocity", "100", "10", "--pressure", "0.3", "--windows", "3"]
-    assert main([*given, "--kinematics", "small", "--plane", "strain", "--cutoff", "4", "2", "--accuracy", "0.05"]) == 0
+    assert main([*given, "--kinematics", "small", "--plane", "strain", "--cutoff", "4", "2", "--scales", "2"]) == 0
     assert "± " in capsys.readouterr().out
     table = read_table("friction_street.csv", ["way", "note"])
     direct = table[table["way"] == "direct"]
@@ -81,7 +81,11 @@ def test_sliding_over_windows_gives_friction_with_the_error_of_the_road(
     )
     assert direct["friction_coefficient"].to_numpy() == pytest.approx(direct["friction_persson"], rel=0.4)
     # A finer cutoff adds friction, and so does theory for the cutoffs beyond.
-    for _, rows in table.groupby("velocity_mm_per_s"):
+    assert ((direct["contact_fraction"] / direct["contact_persson"]).between(0.5, 2.0)).all()
+    whole, total = (table.loc[table["way"] == way, "friction_coefficient"].to_numpy() for way in ("sines", "sum"))
+    assert (whole < total).all()
+    assert whole == pytest.approx(direct.loc[direct["cutoff_mm"] == 2.0, "friction_coefficient"].to_numpy(), rel=0.5)
+    for _, rows in table[table["way"].isin(["direct", "persson"])].groupby("velocity_mm_per_s"):
         assert rows["cutoff_mm"].is_monotonic_decreasing
         assert rows["friction_coefficient"].is_monotonic_increasing
         assert rows["way"].tolist()[:3] == ["direct", "direct", "persson"]
