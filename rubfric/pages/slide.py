@@ -64,8 +64,8 @@ def _warnings(table: pd.DataFrame) -> Iterator[str]:
     if refused:
         reason = next(note for note in direct["note"] if note)
         yield sentence(
-            f"{refused} scenes were refused: means there are over fewer windows, and not to be compared with others; the "
-            f"first: {reason}"
+            f"{refused} scenes were refused: means there are over fewer windows, not to be compared with others; "
+            f"the first: {reason}"
         )
     for place, rows in direct.groupby(["pressure_MPa", "velocity_mm_per_s"]):
         friction = rows.sort_values("cutoff_mm")["friction_coefficient"].to_numpy()
