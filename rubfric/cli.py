@@ -25,6 +25,7 @@ example:
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --aspect 0.75
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --accuracy 0.002
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
+  rubfric simulate --scale 1 --velocity 100 --pressure 5 --temperature 60 --config mine.yaml
   rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
   rubfric init mine.yaml
@@ -138,6 +139,9 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--aspect", type=float, metavar="R", help="height of the block over its width (default: the config's)"
     )
+    command.add_argument(
+        "--temperature", type=float, metavar="T", help="of a rubber with shift factors, degC (default: the config's)"
+    )
     command.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     command.add_argument(
         "--kinematics",
@@ -161,9 +165,10 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
 def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     """Return the campaign and the scene that the options name."""
     campaign = campaigns.load(*_configs(options.config or []))
-    names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy")
+    names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy", "temperature")
     scene = campaign.scene(**{name: getattr(options, name) for name in names})
-    for sentence in check_plausible(scene.material, campaign.road, [scene.velocity], [scene.pressure]):
+    warm = None if scene.temperature is None else {scene.temperature: scene.material}
+    for sentence in check_plausible(campaign.material, campaign.road, [scene.velocity], [scene.pressure], warm):
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
@@ -20,6 +20,10 @@ from rubfric.files import whole
 from rubfric.outputs import check_output, name_of
 from rubfric.rubber.material import Material
 from rubfric.rules import Number
+
+if TYPE_CHECKING:  # heavy
+    from rubfric.dma.bootstrap import Bands
+    from rubfric.dma.result import Fit
 
 _FIT = """\
 examples:
@@ -150,46 +154,60 @@ def _fit(options: argparse.Namespace) -> int:
             Number(low=least, high=most).check(f"--{key.replace('_', '-')}", getattr(options, key))
     said = _columns(options.columns)
     from rubfric.dma.bootstrap import bootstrap  # heavy: only once the input is known to be right
-    from rubfric.dma.entry import as_shear, rubber
-    from rubfric.dma.fit import fit
-    from rubfric.dma.measurements import read
+    from rubfric.dma.fitted import Bulk, Reading, fit_file
     from rubfric.dma.result import Options
-    from rubfric.pages.render import sentence, write_page
-    from rubfric.pages.rubber import results, rubber_page
 
-    modulus = options.modulus or said.pop("modulus", None)
-    said.pop("modulus", None)
-    data = read(options.file, modulus=modulus, master=options.master, isotherm=options.isotherm, **said)
-    static, bulk = options.static_modulus, options.bulk_modulus
-    if bulk is not None:
-        if static is not None and data.kind == "E":
-            static = 3.0 * bulk * static / (9.0 * bulk - static)
-        data = as_shear(data, bulk)
-    found = fit(
-        data,
+    reading = Reading(
+        **said | {"modulus": options.modulus or said.get("modulus")}, master=options.master, isotherm=options.isotherm
+    )
+    found, material = fit_file(
+        options.file,
+        name,
+        reading,
         Options(
             options.reference_temperature,
             options.law,
             options.vertical,
-            static,
+            options.static_modulus,
             options.branches_per_decade,
             options.samples,
             options.seed,
         ),
+        Bulk(options.poissons_ratio, options.bulk_modulus),
     )
-    material = rubber(found, name, options.poissons_ratio, options.bulk_modulus)
-    bands = bootstrap(found)
+    lines = write_fit(found, material, bootstrap(found), output, f"fit from {options.file}")
+    print("\n".join([*lines, "", f"Written to {output} and {page}"]))
+    return 0
+
+
+def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: str) -> list[str]:
+    """Write a fitted rubber as a config, and its page beside it; return what was found, a line each.
+
+    Parameters
+    ----------
+    found : Fit
+    material : Material
+        That of the fit.
+    bands : Bands
+        Fits of resampled data.
+    output : Path
+        The config; the page has the suffix ``.html`` instead.
+    how : str
+        How the rubber was found, for the config's first line.
+    """
+    from rubfric.pages.render import sentence, write_page
+    from rubfric.pages.rubber import results, rubber_page
+
     rows = [
         " ".join(filter(None, (f"{label}:", value, band and f"(95 %: {band})")))
         for label, value, band in results(found, bands)
     ]
     words = [sentence(each) for each in (*found.warnings, *found.data.notes)]
-    text = _yaml(material, f"fit from {options.file}", [*rows, *_shift_lines(found.shift()), *words])
+    text = _yaml(material, how, [*rows, *_shift_lines(found.shift()), *words])
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
-    write_page(rubber_page(found, bands, name, text), page)
-    print("\n".join([*rows, *words, "", f"Written to {output} and {page}"]))
-    return 0
+    write_page(rubber_page(found, bands, material.name, text), output.with_suffix(".html"))
+    return [*rows, *words]
 
 
 def _read(options: argparse.Namespace) -> int:

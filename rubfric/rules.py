@@ -139,7 +139,7 @@ class Integer(Rule):
     def _schema(self) -> dict[str, Any]:
         bounds: dict[str, Any] = {
             "type": "integer",
-            "minimum": self.low if self.step == 1 else max(self.low, self.step),
+            "minimum": max(self.low, self.step) if self.low else 0,
         }
         bounds |= {} if self.high is None else {"maximum": self.high}
         return bounds if self.step == 1 else bounds | {"multipleOf": self.step}

@@ -27,6 +27,7 @@ rubbers:
     relaxation_times: [1.0e-3, 1.0e-5, 1.0e-7]   # tau_i, s
     bulk: elastic                                # k_i = 0; or proportional, k_i = g_i
     density: 1.1e-9                              # t/mm³, 1.1 g/cm³
+    # In place of all these, moduli that were measured (docs/rubber.md):   measurements: dma.csv
 
 road: {name}
 roads:

@@ -14,6 +14,8 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.config.default import over_default
+from rubfric.config.fitting import fitted_rubber
+from rubfric.config.measured import MeasuredRubber
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -36,9 +38,12 @@ from rubfric.config.references import (
     study_of,
 )
 from rubfric.config.rig import RigChoice
+from rubfric.config.temperature import check_temperatures, rubber_at, rubber_of, shown_temperature
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
+from rubfric.rubber.fitted import FittedRubber
 from rubfric.rubber.material import Material
+from rubfric.rubber.shift import Shift
 from rubfric.rules import Choice
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
@@ -58,7 +63,7 @@ class Campaign:
     results : str
         Folder of the outputs.
     material : Material
-        The rubber in use.
+        The rubber in use; with shift factors, at their reference temperature.
     road_name : str
         Name of the road in use.
     road : tuple of SineScale
@@ -87,6 +92,12 @@ class Campaign:
     numerics : Numerics
     presets : dict of str to Numerics
         Every preset, by name.
+    fitted : FittedRubber or None
+        The rubber where it was fitted to measured moduli, with its shift factors and what the measurement leaves open.
+    shift : Shift or None
+        The rubber's shift factors.
+    temperatures : tuple of float
+        degC, ascending; none where the rubber is simulated as it is given.
     """
 
     results: str
@@ -107,17 +118,38 @@ class Campaign:
     claims: ClaimsChoice | None
     numerics: Numerics
     presets: dict[str, Numerics]
+    fitted: FittedRubber | None = None
+    shift: Shift | None = None
+    temperatures: tuple[float, ...] = ()
 
     @classmethod
-    def from_config(cls, config: Mapping[str, Any]) -> Campaign:
-        """Check a config whole and read it; InvalidInput says in a sentence each what is wrong with it."""
+    def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
+        """Check a config whole and read it; a rubber that was measured is fitted.
+
+        Parameters
+        ----------
+        config : mapping
+        kept : path-like, optional
+            Folder in which the fit of a measured rubber is kept from run to run.
+
+        Raises
+        ------
+        InvalidInput
+            A sentence on everything that is wrong.
+        """
         given = read_whole(config)
+        entry = given.rubbers[given.rubber]
+        fitted = fitted_rubber(given.rubber, entry, kept) if isinstance(entry, MeasuredRubber) else None
         scales = [dict(scale) for scale in given.roads[given.road]]
         road = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
         numerics, presets = numerics_of(given)
+        material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(given.rubber, entry.given())
+        figures, temperatures = figures_of(given.figures, given.grid), given.grid.temperatures
+        check_temperatures(material, shift, temperatures)
+        shown = shown_temperature(figures.temperature, temperatures, shift)
         campaign = cls(
             results=given.results,
-            material=Material(name=given.rubber, **given.rubbers[given.rubber].given()),
+            material=material,
             road_name=given.road,
             road=road,
             phases=tuple(scale["phase"] for scale in scales),
@@ -129,11 +161,14 @@ class Campaign:
             aspect=given.grid.aspect,
             aspect_study=study_of(given.aspect_study, given.grid),
             transient=march_of(given.transient, given.grid),
-            figures=figures_of(given.figures, given.grid),
+            figures=figures.model_copy(update={"temperature": shown}),
             rig=rig_of(given.rig, given.grid),
             claims=given.claims,
             numerics=numerics,
             presets=presets,
+            fitted=fitted,
+            shift=shift,
+            temperatures=temperatures,
         )
         _ = campaign.whole_roads  # refuses a road without a period
         return campaign
@@ -148,6 +183,7 @@ class Campaign:
         kinematics: str | None = None,
         preset: str | None = None,
         accuracy: float | None = None,
+        temperature: float | None = None,
     ) -> Scene:
         """Return any scene of this rubber on this road, in the grid or not.
 
@@ -169,21 +205,38 @@ class Campaign:
             One of the config's presets, instead of its numerics.
         accuracy : float, optional
             Relative accuracy of friction, instead of that of the preset or of the numerics.
+        temperature : float, optional
+            degC, of a rubber with shift factors; where the grid has temperatures, that of the figures by default.
         """
         whole = scale == ALL
         index = ALL if whole else scale_number("scale", scale, len(self.road))
         numerics = self.presets[Choice(words=self.presets).check("preset", preset)] if preset else self.numerics
+        warm = self.figures.temperature if temperature is None else checks.number("temperature", temperature)
         return Scene(
             scale=index,
             road=self.whole_road if whole else self.road[int(index) - 1],
             velocity=velocity,
             pressure=pressure,
             aspect=self.aspect if aspect is None else aspect,
-            material=self.material,
+            material=self.material if warm is None else rubber_at(self.material, self.shift, warm),
             plane=self.plane if plane is None else plane,
             kinematics=self.kinematics if kinematics is None else kinematics,
             numerics=numerics if accuracy is None else replace(numerics, accuracy=accuracy),
+            temperature=warm,
+            measured=self.fitted.at(warm)[1] if self.fitted else None,
         )
+
+    def at(self, temperature: float | None) -> Campaign:
+        """Return the campaign at one temperature (degC) only; itself for None, a rubber as it is given."""
+        if temperature is None:
+            return self
+        figures = self.figures.model_copy(update={"temperature": temperature})
+        return replace(self, temperatures=(temperature,), figures=figures)
+
+    @cached_property
+    def by_temperature(self) -> dict[float | None, Campaign]:
+        """The campaign at each of its temperatures (degC); itself, under None, where it has none."""
+        return {one: self.at(one) for one in self.temperatures or (None,)}
 
     @cached_property
     def whole_road(self) -> WaveRoad:
@@ -203,8 +256,13 @@ class Campaign:
 
     def whole_scenes(self) -> dict[str, Scene]:
         """Return every scene of the whole road by name; with random phases, by ``drawN/`` and name."""
-        grid = product(self.velocities, self.pressures)
-        scenes = [self.scene(ALL, *point, preset=self.multiscale.preset) for point in grid if self.whole_roads]
+        grid = product(self.temperatures or (None,), self.velocities, self.pressures)
+        preset = self.multiscale.preset
+        scenes = [
+            self.scene(ALL, velocity, pressure, preset=preset, temperature=temperature)
+            for temperature, velocity, pressure in grid
+            if self.whole_roads
+        ]
         roads = self.whole_roads.items()
         return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
 
@@ -212,13 +270,14 @@ class Campaign:
         """Return what the total over the scales depends on besides results, as plain values.
 
         Those of ``rubfric.results.whole_road.WholeRoad``. Scales without a common period, of which no whole road is
-        simulated, are judged by the nearest that have one.
+        simulated, are judged by the nearest that have one. Of several temperatures that of the figures counts.
         """
+        shown = self.figures.temperature
         roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]
         return {
             "way": self.multiscale.way,
             "accuracy": self.presets[self.multiscale.preset].accuracy,
-            "material": asdict(self.material),
+            "material": asdict(self.material if shown is None else rubber_at(self.material, self.shift, shown)),
             "plane": self.plane,
             "kinematics": self.kinematics,
             "aspect": self.aspect,
@@ -236,8 +295,9 @@ class Campaign:
         return {scene.name: scene for scene in self._all_scenes()}
 
     def _all_scenes(self) -> Iterator[Scene]:
-        for scale, velocity, pressure in product(self.scales, self.velocities, self.pressures):
-            yield self.scene(scale, velocity, pressure)
+        grid = product(self.temperatures or (None,), self.scales, self.velocities, self.pressures)
+        for temperature, scale, velocity, pressure in grid:
+            yield self.scene(scale, velocity, pressure, temperature=temperature)
         study = self.aspect_study
         if study is None:
             return
@@ -248,9 +308,11 @@ class Campaign:
         """Return the campaign in another reading of the paper, one of those under ``claims.readings``."""
         readings = readings_of(self.claims)
         other = readings[Choice(words=readings).check("reading", name)]
+        material = other.rubber(self.material)
         return replace(
             self,
-            material=other.rubber(self.material),
+            material=material,
+            fitted=self.fitted if material == self.material else None,  # no longer the rubber that was fitted
             plane=other.plane or self.plane,
             kinematics=other.kinematics or self.kinematics,
             numerics=self.presets[self.claims.preset] if self.claims else self.numerics,
@@ -259,11 +321,12 @@ class Campaign:
     def words(self) -> str:
         """Return in a sentence what is run: rubber, road, plane, kinematics, grid and accuracy."""
         rubber, numerics = self.material, self.numerics
+        warm = f", {_span(self.temperatures)} degC" if self.temperatures else ""
         return (
             f"Rubber {rubber.name} ({rubber.moduli.replace('_', '-')} modulus, {rubber.bulk} bulk) on road "
             f"{self.road_name}, plane {self.plane}, {self.kinematics} kinematics: {len(self.road)} "
-            f"scale{'s' if len(self.road) > 1 else ''}, {_span(self.velocities)} mm/s, {_span(self.pressures)} MPa; "
-            f"friction to {100.0 * numerics.accuracy:g} %."
+            f"scale{'s' if len(self.road) > 1 else ''}, {_span(self.velocities)} mm/s, {_span(self.pressures)} "
+            f"MPa{warm}; friction to {100.0 * numerics.accuracy:g} %."
         )
 
     def marches(self) -> dict[str, Scene]:
@@ -288,12 +351,16 @@ class Campaign:
         """
         if self.rig:
             check_area("rig.virtual.area", self.rig.virtual.area)
-        return check_plausible(self.material, self.road, self.velocities, self.pressures)
+        warm = {one: rubber_at(self.material, self.shift, one) for one in self.temperatures}
+        return check_plausible(self.material, self.road, self.velocities, self.pressures, warm)
 
     def choices(self) -> dict[str, Any]:
         """Return, as a config has them, the folder of the results and the sections that depend on the grid."""
         sections = {name: getattr(self, name) for name in EXTRAS}
-        return {"results": self.results} | {name: one and one.model_dump() for name, one in sections.items()}
+        plain = {"results": self.results} | {name: one and one.model_dump() for name, one in sections.items()}
+        if self.figures.temperature is None:
+            del plain["figures"]["temperature"]
+        return plain
 
     def field_scenes(self) -> dict[str, Scene]:
         """Return the scenes whose fields are drawn, by name; pressure by pressure."""

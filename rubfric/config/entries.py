@@ -108,7 +108,8 @@ def faults(key: str, error: ValidationError) -> list[str]:
 
 
 def _place(key: str, way: Iterable[Any]) -> str:
-    path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in way)
+    named = [part for part in way if not str(part).startswith(HERE)]  # without the kinds of an entry
+    path = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in named)
     return f"{key}{path}".lstrip(".") or "config"
 
 

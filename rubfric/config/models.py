@@ -12,12 +12,14 @@ from collections.abc import Mapping
 from dataclasses import MISSING, fields, replace
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import create_model, model_validator
+from pydantic import Discriminator, Tag, create_model, model_validator
 
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
+from rubfric.config.measured import MeasuredRubber
 from rubfric.config.multiscale import WAYS
 from rubfric.config.place import Place
 from rubfric.config.rig import RigChoice
+from rubfric.config.temperature import ShiftChoice, degrees, rubber_of
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import BULK, MODULI, PLANES, Material
@@ -36,6 +38,10 @@ class Grid(Entry):
     velocities: Annotated[tuple[float, ...], grid_values("Sliding speeds.", "mm/s")]
     pressures: Annotated[tuple[float, ...], grid_values("Nominal pressures on the top of the block.", "MPa")]
     aspect: Annotated[float, Number("Height of the block over its width, which is one wavelength.")]
+    temperatures: Annotated[
+        tuple[float, ...],
+        Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(""), least=0),
+    ] = ()
 
 
 class PhasesChoice(Entry):
@@ -94,6 +100,13 @@ class FigureChoice(Entry):
     total_pressure: Annotated[
         float, Number("Nominal pressure of Fig. 7, the total over the scales; one of the grid's.", "MPa")
     ] = 0.0
+    temperature: Annotated[
+        float | None,
+        degrees(
+            "Temperature of the figures that show one, of claims, aspect study, marches and virtual rig; one of the "
+            "grid's, and the nearest to the rubber's reference where none is given."
+        ),
+    ] = None
     fields: Fields = Fields()
 
 
@@ -180,10 +193,16 @@ class _RubberEntry(Entry):
 def _sound(rubber: Any) -> Any:
     """Refuse a rubber whose entries do not go together."""
     try:
-        Material(name="x", **rubber.given())
+        rubber_of("x", rubber.given())
     except InvalidInput as error:
         raise InvalidInput(*(fault.replace("rubbers.x.", f"{HERE}.") for fault in error.faults)) from None
     return rubber
+
+
+def _kind_of_rubber(given: Any) -> str:
+    """Return the tag of a rubber that is measured, or of one that is given."""
+    measured = isinstance(given, MeasuredRubber) or (isinstance(given, Mapping) and "measurements" in given)
+    return f"{HERE}{'measured' if measured else 'given'}"
 
 
 if TYPE_CHECKING:  # made of the dataclasses below
@@ -216,6 +235,7 @@ else:
             [name for name in rules(Material) if name != "name"],
             {one.name: one.default for one in fields(Material) if one.default is not MISSING},
         ),
+        shift=(ShiftChoice | None, None),
         __validators__={"_sound": model_validator(mode="after")(_sound)},
     )
     Scale = create_model(
@@ -279,7 +299,16 @@ class Config(Entry):
         dict[str, Preset],
         Catalogue("Accuracies with the first mesh on which to look for them, by name."),
     ]
-    rubbers: Annotated[dict[str, Rubber], Catalogue("Rubbers by name.")]
+    rubbers: Annotated[
+        dict[
+            str,
+            Annotated[
+                Annotated[Rubber, Tag(f"{HERE}given")] | Annotated[MeasuredRubber, Tag(f"{HERE}measured")],
+                Discriminator(_kind_of_rubber),
+            ],
+        ],
+        Catalogue("Rubbers by name: by their Prony series, or by the file of measured moduli that it is fitted to."),
+    ]
     roads: Annotated[
         dict[str, Annotated[list[Scale], Scales("Scales of a road, from coarse to fine; scale 1 is the first.")]],
         Catalogue("Roads by name."),

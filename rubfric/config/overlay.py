@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ OWN = frozenset(("rubber", "rubbers", "road", "roads", "grid"))
 EXTRAS = {
     "aspect_study": ("scales", "pressures"),
     "transient": ("scale", "velocities", "pressure"),
-    "figures": ("total_pressure", "fields"),
+    "figures": ("total_pressure", "temperature", "fields"),
     "rig": ("pressures", "speeds"),
     "claims": (),
 }
@@ -30,7 +30,7 @@ _NO_YAML = (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError, 
 
 
 def read_yaml(path: str | os.PathLike[str]) -> Any:
-    """Return what a YAML file holds.
+    """Return what a YAML file holds; files of measured rubbers in it count from the folder of the YAML file.
 
     Raises
     ------
@@ -53,7 +53,42 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if wrong:
         raise InvalidInput(f"{os.fspath(path)} {wrong}")
-    return held
+    return _beside(held, Path(path).parent, lambda given, beside: beside)
+
+
+def placed(config: Any, paths: Iterable[str | os.PathLike[str]]) -> Any:
+    """Return a config that another program has read from YAML files, with files of measured rubbers as from there.
+
+    Parameters
+    ----------
+    config : mapping
+    paths : iterable of path-like
+        The files, each laid over the ones before.
+    """
+    for path in reversed([*paths]):
+        rubbers = _rubbers(read_yaml(path))
+
+        def found(given: str, beside: str, rubbers: Mapping[str, Any] = rubbers) -> str:
+            held = [entry.get("measurements") for entry in rubbers.values() if isinstance(entry, Mapping)]
+            return beside if beside in held else given
+
+        config = _beside(config, Path(path).parent, found)
+    return config
+
+
+def _rubbers(config: Any) -> Mapping[str, Any]:
+    rubbers = config.get("rubbers") if isinstance(config, Mapping) else None
+    return rubbers if isinstance(rubbers, Mapping) else {}
+
+
+def _beside(config: Any, folder: Path, choose: Callable[[str, str], str]) -> Any:
+    """Return a config in which the files of measured rubbers are chosen, given as they are and as in a folder."""
+    rubbers = dict(_rubbers(config))
+    for name, entry in rubbers.items():
+        given = entry.get("measurements") if isinstance(entry, Mapping) else None
+        if isinstance(given, str) and given and given[0] not in "~$/" and not os.path.isabs(given):
+            rubbers[name] = {**entry, "measurements": choose(given, _from_here(folder / given))}
+    return {**config, "rubbers": rubbers} if rubbers else config
 
 
 def _no_text(error: UnicodeDecodeError) -> str:
@@ -187,6 +222,13 @@ def own_campaign(merged: Mapping[str, Any], above: Mapping[str, Any]) -> dict[st
         else:
             kept[section] = own
     return {**merged, **kept}
+
+
+def _from_here(path: Path) -> str:
+    """Return a path as from the working folder where it is below that, so that the folder may be moved."""
+    found = os.path.abspath(path)
+    here = os.path.relpath(found)
+    return found if here.startswith(os.pardir) else here
 
 
 def _overlay(base: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:

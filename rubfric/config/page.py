@@ -79,14 +79,18 @@ def page(config: dict[str, Any]) -> str:
 def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple[str, ...]]:
     """Yield the cells of every key below a model that holds a value, given the config's entries there, by name."""
     for name, field in model.model_fields.items():
-        below, mark = _below(field.annotation)
+        models, mark = _below(field.annotation)
         inner: Any = {
             label: [item[name] for item in entry] if isinstance(entry, list) else entry[name]
             for label, entry in values.items()
             if all(name in item for item in (entry if isinstance(entry, list) else [entry]))
         }
-        if below:
-            yield from _keys(below, inner[""] if mark else inner, f"{at}{name}{mark}.")
+        for below in models:
+            held: dict[str, Any] = inner[""] if mark else inner
+            if len(models) > 1:
+                held = {label: entry for label, entry in held.items() if set(entry) <= set(below.model_fields)}
+            yield from _keys(below, held, f"{at}{name}{mark}.")
+        if models:
             continue
         node = field.metadata[0].schema()
         unit = node.get("unit") or node.get("items", {}).get("unit") or _NOTHING
@@ -97,13 +101,18 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         yield f"`{at}{name}`", field.metadata[0].about, unit, _allowed(node) + optional, defaults or missing
 
 
-def _below(annotation: Any) -> tuple[type[Entry] | None, str]:
-    """Return the model of a key, if its value has keys of its own, and what stands for free names between the two."""
+def _below(annotation: Any) -> tuple[list[type[Entry]], str]:
+    """Return the models of a key whose value has keys of its own, and what stands for free names between the two."""
     annotation = _given(annotation)
     if get_origin(annotation) is not dict:
-        return (annotation if isinstance(annotation, type) and issubclass(annotation, Entry) else None), ""
+        return ([annotation] if isinstance(annotation, type) and issubclass(annotation, Entry) else []), ""
     entry = get_args(annotation)[1]
-    return (entry, ".*") if isinstance(entry, type) else (get_args(get_args(entry)[0])[0], ".*[]")
+    if isinstance(entry, type):
+        return ([entry] if issubclass(entry, Entry) else []), ".*"
+    inside = get_args(entry)[0]
+    if get_origin(inside) is list:
+        return [get_args(inside)[0]], ".*[]"
+    return [get_args(kind)[0] for kind in get_args(inside)], ".*"
 
 
 def _about(name: str) -> str:
@@ -146,6 +155,8 @@ def _allowed(node: dict[str, Any]) -> str:
     if node["type"] == "string":
         letters = "word of letters, digits, `-` and `_`" if "pattern" in node else "text"
         return f"{letters}, at most {node['maxLength']} long"
+    if node["type"] == "object":
+        return f"text by name: {', '.join(node['propertyNames']['enum'])}"
     kind = {"integer": "whole number", "number": "number"}[node["type"]]
     multiple = f", a multiple of {node['multipleOf']}" if "multipleOf" in node else ""
     if "exclusiveMinimum" in node:

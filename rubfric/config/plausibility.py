@@ -7,13 +7,14 @@ gels to glasses, and beyond every road.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.rubber.material import Material
+from rubfric.rubber.shift import KELVIN
 
 # MPa: stiffer than steel, and than any solid; relaxed rubber from gels to cured resins; the glass of a rubber.
 _STIFFEST, _NO_SOLID, _RELAXED, _GLASS = 1e5, 1e6, (1e-2, 200.0), 2e4
@@ -21,12 +22,17 @@ _STIFFEST, _NO_SOLID, _RELAXED, _GLASS = 1e5, 1e6, (1e-2, 200.0), 2e4
 _CENTURIES, _YEAR, _MOLECULE = 1e10, 3.15e7, 1e-15
 # Slopes, dimensionless: of 84 degrees, of 72 degrees, and of a mirror; mm: 0.1 micrometres.
 _CLIFF, _STEEP, _FLAT, _FINEST = 10.0, 3.0, 1e-3, 1e-4
-# MPa: ten times what a tyre or a sealing ring meets. Loss factor of an elastic solid. mm²: a square of 0.3 mm.
-_HEAVY, _LOSSLESS, _SMALLEST_AREA = 50.0, 1e-3, 0.1
+# degC: above it rubber decomposes. MPa: ten times what a tyre or a sealing ring meets. Loss factor of an elastic solid.
+# mm²: a square of 0.3 mm.
+_HOT, _HEAVY, _LOSSLESS, _SMALLEST_AREA = 250.0, 50.0, 1e-3, 0.1
 
 
 def check_plausible(
-    material: Material, road: Sequence[SineScale], velocities: Sequence[float], pressures: Sequence[float]
+    material: Material,
+    road: Sequence[SineScale],
+    velocities: Sequence[float],
+    pressures: Sequence[float],
+    warm: Mapping[float, Material] | None = None,
 ) -> list[str]:
     """Return what is unlikely, in a sentence each that names the unit that may have been meant.
 
@@ -39,6 +45,8 @@ def check_plausible(
         mm/s.
     pressures : sequence of float
         MPa.
+    warm : mapping of float to Material, optional
+        The rubber at each temperature, degC, at which it is simulated; by default as it is given.
 
     Raises
     ------
@@ -54,7 +62,15 @@ def check_plausible(
             (refused if cannot_be else unlikely).append(sentence)
     if refused:
         raise InvalidInput(*refused)
-    return [*unlikely, *_losses(material, road, velocities)]
+    unlikely += [
+        f"the temperature {one:g} degC is above that of any rubber in use: is it in K, {one - KELVIN:.6g} degC?"
+        for one in warm or ()
+        if one > _HOT
+    ]
+    rubbers = {f"{material.name} at {one:g} degC": each for one, each in (warm or {}).items()}
+    for name, rubber in (rubbers or {material.name: material}).items():
+        unlikely += _losses(name, rubber, road, velocities)
+    return unlikely
 
 
 def check_area(key: str, area: float) -> float:
@@ -164,7 +180,7 @@ def _loads(material: Material, pressures: Sequence[float]) -> list[tuple[bool, s
     return found
 
 
-def _losses(material: Material, road: Sequence[SineScale], velocities: Sequence[float]) -> list[str]:
+def _losses(name: str, material: Material, road: Sequence[SineScale], velocities: Sequence[float]) -> list[str]:
     """Say where the rubber is elastic at the frequencies that the road excites."""
     if not material.relaxation_times:
         return []
@@ -175,12 +191,12 @@ def _losses(material: Material, road: Sequence[SineScale], velocities: Sequence[
     where = f"the road excites it at {frequencies[0]:.2g} to {frequencies[-1]:.2g} rad/s"
     if float((shear.imag / shear.real).max()) < _LOSSLESS:
         return [
-            f"rubber {material.name} dissipates next to nothing, since {where}, and relaxes within {shortest:.2g} to "
+            f"rubber {name} dissipates next to nothing, since {where}, and relaxes within {shortest:.2g} to "
             f"{max(material.relaxation_times):.2g} s: are relaxation_times in s?"
         ]
     if shortest * frequencies[-1] > 10.0:
         return [
-            f"rubber {material.name} is elastic at the highest speeds: {where}, and its shortest relaxation time is "
+            f"rubber {name} is elastic at the highest speeds: {where}, and its shortest relaxation time is "
             f"{shortest:.2g} s: is it in ms?"
         ]
     return []

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.measured import MeasuredRubber
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -16,6 +17,7 @@ from rubfric.config.models import (
     TransientChoice,
 )
 from rubfric.config.rig import RigChoice
+from rubfric.config.temperature import check_temperatures, rubber_of
 from rubfric.errors import InvalidInput
 from rubfric.rules import Choice, Integer
 from rubfric.scene.numerics import PRESET_KEYS, Numerics
@@ -87,6 +89,12 @@ def references(sections: Mapping[str, Any]) -> list[str]:
     if {"road", "roads"} <= set(sections) and not any(fault.startswith("road ") for fault in found):
         for key, number in _scales(sections):
             look(scale_number, key, number, len(sections["roads"][sections["road"]]))
+    known = not any(fault.startswith("rubber ") for fault in found)
+    if known and {"rubber", "rubbers", "grid"} <= set(sections):
+        rubber = sections["rubber"]
+        entry = sections["rubbers"][rubber]
+        if not isinstance(entry, MeasuredRubber):  # of which the fit tells how far the shift factors reach
+            look(check_temperatures, *rubber_of(rubber, entry.given()), sections["grid"].temperatures)
     if sections.get("grid") and sections.get("figures"):
         look(_on_grid, sections["grid"], sections["figures"])
     return found
@@ -104,6 +112,7 @@ def _scales(sections: Mapping[str, Any]) -> list[tuple[str, int]]:
 def _on_grid(grid: Grid, figures: FigureChoice) -> None:
     chosen = (
         ("figures.total_pressure", (figures.total_pressure,) if figures.total_pressure else (), "pressures"),
+        ("figures.temperature", () if figures.temperature is None else (figures.temperature,), "temperatures"),
         ("figures.fields.pressures", figures.fields.pressures, "pressures"),
         ("figures.fields.velocities", figures.fields.velocities, "velocities"),
     )
@@ -112,7 +121,7 @@ def _on_grid(grid: Grid, figures: FigureChoice) -> None:
         allowed = getattr(grid, axis)
         others = ", ".join(checks.written(value) for value in values if value not in allowed)
         if others:
-            known = ", ".join(map(checks.written, allowed))
+            known = ", ".join(map(checks.written, allowed)) or "it has none"
             faults.append(f"{key} has {others}, but must be chosen from grid.{axis}: {known}")
     if faults:
         raise InvalidInput(*faults)

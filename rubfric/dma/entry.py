@@ -19,6 +19,8 @@ POISSONS_RATIO = 0.49
 _LEAST_SHARE, _SMALL_SHARE = 1e-8, 1e-4
 # Relaxation times, s, beyond those of any sliding.
 _SHORTEST, _LONGEST = 1e-20, 1e20
+# Digits of a fit that do not hang on the round-off of the machine; noise takes the others.
+_DIGITS = 6
 
 
 def as_shear(data: Measurements, bulk_modulus: float) -> Measurements:
@@ -49,6 +51,21 @@ def as_shear(data: Measurements, bulk_modulus: float) -> Measurements:
     return replace(data, kind="G", storage=shear.real, loss=shear.imag)
 
 
+def series(fit: Fit) -> tuple[float, tuple[float, ...], tuple[float, ...]]:
+    """Return modulus at rest, moduli of the branches, MPa, and their times, s, of a fit, to six digits.
+
+    Branches that no sliding excites have relaxed, or never relax: cold glasses are shifted by dozens of decades.
+    """
+    kept = (fit.times > _SHORTEST) & (fit.times < _LONGEST) & (fit.moduli > 0.0)
+    static = rounded(fit.static + math.fsum(fit.moduli[fit.times >= _LONGEST]))
+    return static, tuple(map(rounded, fit.moduli[kept])), tuple(map(rounded, fit.times[kept]))
+
+
+def rounded(value: float) -> float:
+    """Return a number to the digits of a fit that do not hang on round-off."""
+    return float(f"{value:.{_DIGITS}g}")
+
+
 def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_modulus: float | None = None) -> Material:
     """Return the rubber at the reference temperature.
 
@@ -67,10 +84,7 @@ def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_mod
     InvalidInput
         For data without a static modulus, and for values that no rubber can have.
     """
-    # Branches that no sliding excites have relaxed, or never relax: cold glasses are shifted by dozens of decades.
-    kept = (fit.times > _SHORTEST) & (fit.times < _LONGEST)
-    static = fit.static + math.fsum(fit.moduli[fit.times >= _LONGEST])
-    moduli, times = fit.moduli[kept], fit.times[kept]
+    static, moduli, times = series(fit)
     total = static + math.fsum(moduli)
     share = static / total
     if share < _LEAST_SHARE:
@@ -89,8 +103,8 @@ def rubber(fit: Fit, name: str, poissons_ratio: float = POISSONS_RATIO, bulk_mod
         name=name,
         youngs_modulus=young,
         poissons_ratio=poissons_ratio,
-        shear_fractions=tuple(float(each / total) for each in moduli),
-        relaxation_times=tuple(map(float, times)),
+        shear_fractions=tuple(each / total for each in moduli),
+        relaxation_times=times,
         moduli=which,
         bulk="elastic" if bulk_modulus is not None else "proportional",
     )

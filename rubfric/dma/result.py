@@ -142,9 +142,10 @@ class Fit:
             table["temperatures"] = tuple(float(f"{each:.6g}") for each in self.data.temperatures)
         reference = self.reference
         if self.law == "wlf":
-            return Shift("wlf", reference, c1=self.c1, c2=self.c2, vertical=vertical, **table)
+            c1, c2 = (float(f"{each:.6g}") for each in (self.c1, self.c2))
+            return Shift("wlf", reference, c1=c1, c2=c2, vertical=vertical, **table)
         if self.law == "arrhenius":
-            energy = self.activation_energy
+            energy = float(f"{self.activation_energy:.6g}")
             return Shift("arrhenius", reference, activation_energy=energy, vertical=vertical, **table)
         return Shift("table", reference, vertical=vertical, **table)
 

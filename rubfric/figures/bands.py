@@ -47,7 +47,7 @@ def bands(panel: Axes) -> list[Any]:
     return [area for area in panel.collections if area.get_gid() == _BAND]
 
 
-def band_handle(values: Array, errors: Array, colour: Any = "0.3") -> Patch:
+def band_handle(values: Array, errors: Array, colour: Any = "0.3", rubber: Array | None = None) -> Patch:
     """Return the legend's entry for bands with the largest of the relative errors.
 
     Bands may be thinner than the lines inside them, so the number is needed.
@@ -58,12 +58,16 @@ def band_handle(values: Array, errors: Array, colour: Any = "0.3") -> Patch:
         All friction coefficients that a figure shows, and their absolute errors. A coefficient of zero has no relative
         error and is left out.
     colour : matplotlib colour
+    rubber : numpy.ndarray of the same shape, optional
+        The part of the errors that the data of a measured rubber leave.
     """
     shown = np.abs(values) > NEGLIGIBLE  # False for NaN
     known = shown & np.isfinite(errors)
     words = "estimated error"
     if known.any():
         words += f",\nat most {percent(float(np.max(np.abs(errors[known] / values[known]))))}"
+        if rubber is not None:
+            words += f",\nthe rubber's data alone\nat most {percent(float(np.nanmax(rubber[known] / values[known])))}"
     unknown = int(np.count_nonzero(shown & ~known))
     if unknown:
         words += f",\nunknown at {unknown} of {np.count_nonzero(shown)} points"

@@ -18,6 +18,7 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 from rubfric.figures import deformation, style
 from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, contacts, draw_block, draw_road
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, profile
+from rubfric.figures.note import temperature_of
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed, check_results
 from rubfric.results.selection import NOT_NEEDED, REFUSAL, written
@@ -165,7 +166,7 @@ def _note(grid: SceneGrid, strip: _View, spot: _View, draws: int) -> str:
     if not all(map(is_finite, solved)):
         which = "In small strain (no white lines) only" if any(map(is_finite, solved)) else "Only"
         note.append(f"{which} vertical displacements are shown, to scale, without the mean compression.")
-    return " ".join(note)
+    return " ".join([*note, *temperature_of(next(iter(grid.results.values())))])
 
 
 def _panel(figure: Figure, sheet: _Sheet, grid: SceneGrid, number: int, view: _View) -> Axes:

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
+from typing import Any
 
+import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.selection import friction, friction_error, written
+from rubfric.results.selection import BEYOND, friction, friction_error, pick, rubber_error, written
+
+Array = NDArray[np.float64]
+# Points of which more than this share of friction comes from frequencies at which the rubber was not measured.
+WORTH, _CROSS = 0.01, "beyond"
 
 
 @style.applied()
@@ -31,7 +41,8 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     -------
     matplotlib.figure.Figure
         Rings mark the largest of the sampled points of a line, where it lies between others. Bands around the lines
-        are the estimated errors; the legend gives the largest.
+        are the estimated errors, those from the data of a measured rubber included; the legend gives the largest.
+        Crosses mark points of which more than 1 % comes from frequencies at which the rubber was not measured.
 
     Raises
     ------
@@ -42,6 +53,10 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     """
     grid = friction(campaign, aspect=aspect).dropna("pressure", how="all")
     errors = friction_error(campaign, aspect=aspect).sel(pressure=grid["pressure"]).transpose(*grid.dims)
+    data = rubber_error(campaign, aspect=aspect)
+    if data is not None:
+        data = data.sel(pressure=grid["pressure"]).transpose(*grid.dims)
+        errors = errors + data
     scales = [int(scale) for scale in grid["scale"].values[::-1]]
     pressures = [float(pressure) for pressure in grid["pressure"].values]
     speeds = grid["velocity"].values
@@ -55,14 +70,33 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
             draw_band(panel, speeds, line.values, error.values, look["color"])
             panel.plot(speeds, line.values, **look)
             mark_peak(panel, speeds, line.values, look["color"])
+            if BEYOND in campaign:
+                share = pick(campaign, BEYOND, aspect=aspect, scale=scale, pressure=pressure)
+                _cross(panel, speeds, line.where(share > WORTH).values)
     scale_speeds(axes[0], speeds)
     scale_friction(axes[0], upper(grid.values, errors.values))
     panels.entitle(axes, _titles(scales, micro))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
     handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
-    marks = [*peak_handles(*axes), band_handle(grid.values, errors.values)]
+    marks = [
+        *peak_handles(*axes),
+        *_crosses(axes)[:1],
+        band_handle(grid.values, errors.values, rubber=data if data is None else data.values),
+    ]
     panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
     return figure
+
+
+def _cross(panel: Axes, speeds: Array, values: Array) -> None:
+    """Mark points at which friction is an extrapolation of the rubber's data; NaN for the others."""
+    known = np.isfinite(values)
+    if known.any():
+        look: dict[str, Any] = {"linestyle": "none", "marker": "x", "color": "black", "markersize": 4.5, "zorder": 4.0}
+        panel.plot(speeds[known], values[known], gid=_CROSS, label="beyond the measured\nfrequencies", **look)
+
+
+def _crosses(axes: Sequence[Axes]) -> list[Line2D]:
+    return [line for panel in axes for line in panel.get_lines() if line.get_gid() == _CROSS]
 
 
 def _titles(scales: list[int], micro: bool) -> list[str]:

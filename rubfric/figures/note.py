@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
+import xarray as xr
+
 from rubfric.figures.deformation import is_finite
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid
@@ -37,7 +39,13 @@ def note_below(grid: SceneGrid, whole: bool, shares: bool) -> str:
         )
     if shares:
         note.append("Percentages: share of the nominal area in contact.")
+    note += temperature_of(next(iter(grid.results.values())))
     return " ".join(note)
+
+
+def temperature_of(result: xr.Dataset) -> list[str]:
+    """Return the sentence on the temperature of a result; none where it has none."""
+    return [f"Rubber at {written(result.attrs['temperature'])} °C."] if "temperature" in result.attrs else []
 
 
 def _compressions(grid: SceneGrid) -> str:

@@ -24,6 +24,7 @@ _EXPLORER = (
     "blocks.js",
     "charts.js",
     "whole.js",
+    "temperatures.js",
     "explorer.js",
 )
 # What each page is made of beside its code; scripts in the order in which the browser reads them.

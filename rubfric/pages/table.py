@@ -12,7 +12,7 @@ from rubfric.pages.render import render
 
 _DIGITS = 4
 # Ends of headings, and the units that the page writes for them.
-_UNITS = {"_mm_per_s": "mm/s", "_MPa": "MPa", "_mm": "mm", "_s": "s", "_MB": "MB"}
+_UNITS = {"_mm_per_s": "mm/s", "_MPa": "MPa", "_mm": "mm", "_s": "s", "_MB": "MB", "_degC": "°C"}
 
 
 def table_page(table: pd.DataFrame, title: str, words: str, group: str | None = None) -> str:

@@ -1,4 +1,4 @@
-"""All scenes of a campaign as one dataset over (scale, velocity, pressure, aspect)."""
+"""All scenes of a campaign as one dataset over (scale, velocity, pressure, aspect), and any temperature."""
 
 from __future__ import annotations
 
@@ -13,13 +13,15 @@ import numpy as np
 import xarray as xr
 
 from rubfric import __version__
+from rubfric.checks import written
 from rubfric.checksums import AGAIN, check_seal, fingerprint
 from rubfric.errors import BrokenResult
 from rubfric.mechanics.steady.energies import disagreement
 from rubfric.results.dataset import load
 from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
-from rubfric.results.scalars import SCALARS, attributes
-from rubfric.results.selection import REFUSAL, REFUSALS
+from rubfric.results.scalars import OF_MEASURED, SCALARS, attributes
+from rubfric.results.selection import REFUSAL, REFUSALS, RUBBER_ERROR
+from rubfric.results.temperature import ABOUT, AXIS, MATERIALS
 
 AXES: dict[str, tuple[str, str]] = {
     "scale": ("1", "scale of the road, 1 being the coarsest; 0 is all at once"),
@@ -36,7 +38,10 @@ COLLECTED = "scene_digests"
 
 
 class _Found(NamedTuple):
-    """The coordinates of a result, its scalars, what it shares with its campaign, its road, any refusal, its digest."""
+    """The coordinates of a result, its scalars, what it shares with its campaign, its road, any refusal, its digest.
+
+    With a temperature, the last coordinate, the rubber at it is no part of what is shared.
+    """
 
     point: tuple[float, ...]
     values: dict[str, float]
@@ -44,6 +49,7 @@ class _Found(NamedTuple):
     road: dict[str, float]
     refusal: str
     digest: str
+    material: str = ""
 
 
 def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | None = None) -> xr.Dataset:
@@ -59,22 +65,26 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
     Returns
     -------
     xarray.Dataset
-        Dimensions scale, velocity (mm/s), pressure (MPa), aspect; ``amplitude`` and ``wavenumber`` over scale. What
-        was refused, and why: ``refusals``.
+        Dimensions scale, velocity (mm/s), pressure (MPa), aspect, and temperature (degC) where scenes have one;
+        ``amplitude`` and ``wavenumber`` over scale. What was refused, and why: ``refusals``.
 
     Raises
     ------
     BrokenResult
         For files that cannot be read or are of other scenes, all of them named; for two files of one scene; for
-        scenes that differ in rubber, plane or numerics.
+        scenes that differ in rubber, plane or numerics, or of which some have a temperature and others none.
     """
     files = [os.fspath(path) for path in paths]
     found = _read_all(files, [None] * len(files) if digests is None else digests)
     first: dict[tuple[float, ...], _Found] = {}
     road: dict[float, dict[str, float]] = {}
+    materials: dict[float, str] = {}
     for path, one in zip(files, found, strict=True):
         if one.point in first:
             raise BrokenResult(f"{path} is a second result of its scene; keep one of them")
+        if len(one.point) != len(found[0].point):
+            has, had = ("a", "none") if one.material else ("no", "one")
+            raise BrokenResult(f"{path} has {has} temperature, but the results before it have {had}")
         shared = found[0].shared
         if shared != one.shared:
             other = next(name for name in shared if one.shared[name] != shared[name])
@@ -83,10 +93,12 @@ def collect(paths: Iterable[str | os.PathLike[str]], digests: Iterable[str] | No
             raise BrokenResult(
                 f"{path} has {one.road} on scale {one.point[0]:g}, but another result {road[one.point[0]]}"
             )
+        if one.material and materials.setdefault(one.point[-1], one.material) != one.material:
+            raise BrokenResult(f"{path} has another rubber at {one.point[-1]:g} degC than the results before it")
         first[one.point] = one
     if not first:
         raise BrokenResult("there are no results to collect")
-    return _assemble(found, road)
+    return _assemble(found, road, materials)
 
 
 def read(path: str | os.PathLike[str], scenes: str | None = None) -> xr.Dataset:
@@ -133,23 +145,26 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
     try:
         with netCDF4.Dataset(path) as stored:
             stored.set_auto_maskandscale(False)  # scalars are neither masked nor scaled; looking for it takes time
-            point = tuple(float(stored.getncattr(axis)) for axis in AXES)
+            axes = [*AXES, AXIS] if AXIS in stored.ncattrs() else AXES
+            point = tuple(float(stored.getncattr(axis)) for axis in axes)
             refused = str(stored.getncattr(REFUSAL)) if REFUSAL in stored.ncattrs() else ""
-            values = {} if refused else {name: float(stored[name][...]) for name in SCALARS}
+            own = [*SCALARS, *(name for name in OF_MEASURED if name in stored.variables)]
+            values = {} if refused else {name: float(stored[name][...]) for name in own}
             if not refused:
                 values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
             road = {name: float(np.min(stored.getncattr(name))) for name in _ROAD}
-            own = str(stored.getncattr("scene_digest"))
+            digest_of_file = str(stored.getncattr("scene_digest"))
     except (OSError, AttributeError, IndexError, KeyError, RuntimeError, ValueError) as error:
         raise BrokenResult(f"{path} is no readable result: {error}") from error
-    if digest not in (None, own):
+    if digest not in (None, digest_of_file):
         raise BrokenResult(f"{path} {OTHER_SCENE}")
     if not refused:
         _check_bounds(path, values)
-    return _Found(point, values, common, road, refused, own)
+    material = common.pop("material") if len(point) > len(AXES) else ""
+    return _Found(point, values, common, road, refused, digest_of_file, material)
 
 
 def _check_bounds(path: str, values: dict[str, float]) -> None:
@@ -160,7 +175,7 @@ def _check_bounds(path: str, values: dict[str, float]) -> None:
     bounds = {
         "a number that is not finite": not all(map(math.isfinite, values.values())),
         "a friction below zero by more than its error": friction < -error,
-        "a negative error": error < 0.0,
+        "a negative error": min(error, values.get(RUBBER_ERROR, 0.0)) < 0.0,
         "a contact fraction outside 0 to 1": not 0.0 < values["contact_fraction"] <= 1.0,
         "a negative pressure": min(values["maximum_contact_pressure"], values["maximum_local_contact_pressure"]) < 0.0,
         "routes to friction that do not differ by its energy_closure": abs(differ - closure) > 1e-9 * max(differ, 1.0),
@@ -169,18 +184,20 @@ def _check_bounds(path: str, values: dict[str, float]) -> None:
         raise BrokenResult(f"{path} has {', '.join(broken)}, which no result has")
 
 
-def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Dataset:
-    axes = {name: np.array(sorted({one.point[place] for one in found})) for place, name in enumerate(AXES)}
+def _assemble(found: list[_Found], road: dict[float, dict[str, float]], materials: dict[float, str]) -> xr.Dataset:
+    about_axes = AXES | ({AXIS: ABOUT} if materials else {})
+    axes = {name: np.array(sorted({one.point[place] for one in found})) for place, name in enumerate(about_axes)}
     shape = tuple(len(axis) for axis in axes.values())
-    about_all = SCALARS | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
+    of_measured = {name: about for name, about in OF_MEASURED.items() if any(name in one.values for one in found)}
+    about_all = SCALARS | of_measured | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
     arrays = {name: np.full(shape, np.nan) for name in about_all}
     for one in found:
         index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), one.point, strict=True))
         for name, value in one.values.items():
             arrays[name][index] = value
-    coordinates = {name: (name, axis, attributes(*AXES[name])) for name, axis in axes.items()}
+    coordinates = {name: (name, axis, attributes(*about_axes[name])) for name, axis in axes.items()}
     coordinates["scale"] = ("scale", axes["scale"].astype(np.int64), attributes(*AXES["scale"]))
-    variables = {name: (tuple(AXES), array, attributes(*about_all[name])) for name, array in arrays.items()}
+    variables = {name: (tuple(axes), array, attributes(*about_all[name])) for name, array in arrays.items()}
     for name, about in _ROAD.items():
         variables[name] = (
             ("scale",),
@@ -195,5 +212,7 @@ def _assemble(found: list[_Found], road: dict[float, dict[str, float]]) -> xr.Da
     }
     refused = sorted((one.point, one.refusal) for one in found if one.refusal)
     kept = {REFUSALS: json.dumps(refused)} if refused else {}
+    if materials:
+        kept[MATERIALS] = json.dumps({written(at): json.loads(each) for at, each in sorted(materials.items())})
     kept[COLLECTED] = fingerprint(sorted(one.digest for one in found))
     return xr.Dataset(variables, coords=coordinates, attrs=described | found[0].shared | kept)

@@ -16,7 +16,7 @@ from rubfric.files import whole
 from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.results.provenance import OTHER_SCENE, about
-from rubfric.results.scalars import SCALARS, attributes, scalars
+from rubfric.results.scalars import OF_MEASURED, SCALARS, attributes, scalars
 from rubfric.results.selection import REFUSAL
 from rubfric.results.warnings import below_noise_warning, warnings
 
@@ -45,7 +45,8 @@ def build(solution: SteadySolution, energies: Energies, wall_time: float) -> xr.
     """
     variables = _mesh(solution, energies) | _surface(solution)
     variables |= {
-        name: ((), value, attributes(*SCALARS[name])) for name, value in scalars(solution, energies, wall_time).items()
+        name: ((), value, attributes(*(SCALARS | OF_MEASURED)[name]))
+        for name, value in scalars(solution, energies, wall_time).items()
     }
     return xr.Dataset(variables, attrs=_provenance(solution, energies))
 

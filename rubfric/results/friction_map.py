@@ -16,6 +16,7 @@ from scipy.interpolate import PchipInterpolator
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.results.scales import AXES, TOTAL
 from rubfric.results.selection import pick
+from rubfric.results.temperature import rows_at
 
 Array = NDArray[np.float64]
 
@@ -84,7 +85,9 @@ class FrictionMap:
     error: Array
 
     @classmethod
-    def from_campaign(cls, campaign: xr.Dataset, aspect: float, scale: int) -> FrictionMap:
+    def from_campaign(
+        cls, campaign: xr.Dataset, aspect: float, scale: int, temperature: float | None = None
+    ) -> FrictionMap:
         """Take the friction of one scale at one height-to-width ratio.
 
         Speeds and pressures at which nothing was run are left out.
@@ -97,15 +100,19 @@ class FrictionMap:
             Height over width of the blocks.
         scale : int
             Of the road, 1 being the coarsest.
+        temperature : float, optional
+            degC; of several one has to be chosen.
 
         Raises
         ------
         InvalidInput
-            Where the campaign lacks the ratio or the scale, or has a gap.
+            Where the campaign lacks the ratio, the scale or the temperature, or has a gap.
         BrokenResult
             For a campaign without friction or its errors.
         """
-        return cls._whole(*(pick(campaign, name, aspect=aspect, scale=scale) for name in _VARIABLES))
+        chosen: dict[str, float] = {"aspect": aspect, "scale": scale}
+        chosen |= {} if temperature is None else {"temperature": temperature}
+        return cls._whole(*(pick(campaign, name, **chosen) for name in _VARIABLES))
 
     @classmethod
     def from_totals(cls, totals: pd.DataFrame) -> FrictionMap:
@@ -114,15 +121,16 @@ class FrictionMap:
         Parameters
         ----------
         totals : pandas.DataFrame
-            As from ``rubfric.results.totals.total_table``.
+            As from ``rubfric.results.totals.total_table``, of one temperature.
 
         Raises
         ------
         InvalidInput
-            Where the table has a gap.
+            Where the table has a gap, or several temperatures.
         BrokenResult
             For a table without the totals or their errors.
         """
+        totals = rows_at(totals)
         lacking = [name for name in (*AXES, *TOTAL) if name not in totals]
         if lacking:
             raise BrokenResult(f"the table of totals lacks {', '.join(lacking)}: make it again")

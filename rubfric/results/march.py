@@ -121,6 +121,7 @@ def _provenance(march: Transient) -> dict[str, Any]:
         "pressure": scene.pressure,
         "scale": 0 if scene.scale == ALL else scene.scale,
         "aspect": scene.aspect,
+        **({} if scene.temperature is None else {"temperature": scene.temperature}),
         "wavelength_mm": scene.road.wavelength,
         "steps_per_wavelength": march.procedure.steps_per_wavelength,
         "saturation": str(march.saturation),

@@ -48,6 +48,8 @@ def about(scene: Scene, title: str) -> dict[str, Any]:
         "software": _SOFTWARE,
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
+    warm = {} if scene.temperature is None else {"temperature": "degC"}
+    units |= warm
     attributes |= {name: getattr(scene, name) for name in units}
     attributes["scale"] = 0 if scene.scale == ALL else scene.scale
     road = {"amplitude": "mm", "wavenumber": "mm-1"}
@@ -56,7 +58,7 @@ def about(scene: Scene, title: str) -> dict[str, Any]:
         attributes |= {name: getattr(scene.road.waves, f"{name}s") for name in road}
     else:
         attributes |= {name: getattr(scene.road, name) for name in road}
-    listed = {"velocity": "mm s-1", "pressure": "MPa"} | road
+    listed = {"velocity": "mm s-1", "pressure": "MPa"} | warm | road
     attributes["units_of_attributes"] = ", ".join(f"{name} {unit}" for name, unit in listed.items())
     return attributes
 

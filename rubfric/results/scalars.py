@@ -10,6 +10,8 @@ from rubfric.mechanics.steady.energies import Energies
 from rubfric.mechanics.steady.error import friction_error
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.layer import excitation_frequency
+from rubfric.results.rubber_error import beyond, spread
+from rubfric.results.selection import BEYOND, RUBBER_ERROR
 
 # name: (unit, long name); the scalars of every result, in the order in which they are shown
 SCALARS: dict[str, tuple[str, str]] = {
@@ -41,6 +43,16 @@ SCALARS: dict[str, tuple[str, str]] = {
     "wall_time": ("s", "wall time of the solution and its energies"),
 }
 
+# What only scenes of a measured rubber have.
+OF_MEASURED = {
+    RUBBER_ERROR: (
+        "1",
+        "error of the friction coefficient from the rubber's data, absolute: half of the 95 % band that their scatter "
+        "leaves, where samples were asked for, and all that comes from frequencies beyond those measured",
+    ),
+    BEYOND: ("1", "share of friction from frequencies beyond those at which the rubber was measured"),
+}
+
 
 def attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
     """Return the attributes of a variable.
@@ -56,7 +68,7 @@ def attributes(unit: str, long_name: str, **more: Any) -> dict[str, Any]:
 
 
 def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> dict[str, float | int]:
-    """Return the values of ``SCALARS`` for a solved scene.
+    """Return the values of ``SCALARS`` for a solved scene, and of ``OF_MEASURED`` for one of a measured rubber.
 
     Parameters
     ----------
@@ -66,7 +78,11 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
     wall_time : float
         Of both, s.
     """
-    scene, contact = solution.scene, solution.contact
+    scene, contact, measured = solution.scene, solution.contact, {}
+    if scene.measured:
+        outside = sum(beyond(solution))
+        measured[RUBBER_ERROR] = abs(energies.stress_power) * (spread(scene) + outside)
+        measured[BEYOND] = outside
     frequency = excitation_frequency(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
     return {
         "friction_coefficient": energies.stress_power,
@@ -95,4 +111,5 @@ def scalars(solution: SteadySolution, energies: Energies, wall_time: float) -> d
         "iterations": solution.iterations,
         "krylov_iterations": solution.krylov,
         "wall_time": wall_time,
+        **measured,
     }

@@ -12,7 +12,9 @@ from rubfric.arrays import Real
 from rubfric.errors import BrokenResult, InvalidInput
 
 _NAMES = {"scale": "scale", "velocity": "speed", "pressure": "pressure", "aspect": "height-to-width ratio"}
-_UNITS = {"velocity": " mm/s", "pressure": " MPa"}
+_UNITS = {"velocity": " mm/s", "pressure": " MPa", "temperature": " degC"}
+# The axis that only some campaigns have.
+_TEMPERATURE = "temperature"
 # The attribute that says why a scene has no result, and what one says there that was not needed, before the way that
 # will do.
 REFUSAL, NOT_NEEDED = "refusal", "not solved at once; instead the total is by way of: "
@@ -20,6 +22,8 @@ REFUSAL, NOT_NEEDED = "refusal", "not solved at once; instead the total is by wa
 REFUSALS = "refusals"
 # Of a mean over roads with random phases: how many were solved, and the standard error of the mean friction over them.
 DRAWS, ROAD_ERROR = "draws", "friction_road_error"
+# What the data of a measured rubber leave open of friction, and how much of that comes from frequencies not measured.
+RUBBER_ERROR, BEYOND = "friction_coefficient_rubber_error", "friction_beyond_window"
 # With fewer points no peak can lie between others.
 _FEWEST = 3
 
@@ -40,7 +44,7 @@ def check_variables(campaign: xr.Dataset, *names: str) -> None:
 
 
 def refusals(collected: xr.Dataset) -> dict[tuple[float, ...], str]:
-    """Return why scenes of a collection were refused, by scale, velocity (mm/s), pressure (MPa) and aspect."""
+    """Return why scenes were refused, by scale, velocity (mm/s), pressure (MPa), aspect and, with it, temperature."""
     listed = json.loads(collected.attrs.get(REFUSALS, "[]"))
     return {tuple(float(number) for number in point): reason for point, reason in listed}
 
@@ -53,16 +57,17 @@ def pick(campaign: xr.Dataset, variable: str, **chosen: float) -> xr.DataArray:
     campaign : xarray.Dataset
         As gathered by ``rubfric.results.campaign.collect``; scenes that were not run are NaN.
     variable : str
-        Name of a variable over scale, velocity, pressure and aspect.
+        Name of a variable over scale, velocity, pressure, aspect and, in some campaigns, temperature.
     **chosen : float
-        Values of ``scale``, ``velocity`` (mm/s), ``pressure`` (MPa) or ``aspect``, to 1e-9.
+        Values of ``scale``, ``velocity`` (mm/s), ``pressure`` (MPa), ``aspect`` or ``temperature`` (degC), to 1e-9; of
+        several temperatures one has to be chosen.
 
     Raises
     ------
     BrokenResult
         For a campaign without the variable.
     InvalidInput
-        Where the campaign lacks an axis or a value.
+        Where the campaign lacks an axis or a value, or has several temperatures.
     """
     check_variables(campaign, variable)
     field = campaign[variable]
@@ -71,6 +76,11 @@ def pick(campaign: xr.Dataset, variable: str, **chosen: float) -> xr.DataArray:
         raise InvalidInput(f"the variable {variable} of the campaign lacks the axis {missing[0]}")
     for axis, value in chosen.items():
         field = field.isel({axis: position(campaign, axis, value)})
+    if _TEMPERATURE in field.dims:
+        if field[_TEMPERATURE].size > 1:
+            listed = ", ".join(written(float(one)) for one in field[_TEMPERATURE].values)
+            raise InvalidInput(f"temperature is not given, but the campaign has {listed} degC: choose one of them")
+        field = field.isel({_TEMPERATURE: 0})
     return field.sortby([str(axis) for axis in field.dims])
 
 
@@ -80,15 +90,17 @@ def position(campaign: xr.Dataset, axis: str, value: float) -> int:
     Parameters
     ----------
     campaign : xarray.Dataset
-    axis : {"scale", "velocity", "pressure", "aspect"}
+    axis : {"scale", "velocity", "pressure", "aspect", "temperature"}
     value : float
-        In the unit of the axis (mm/s, MPa, dimensionless); coordinates within 1e-9 of it count as equal.
+        In the unit of the axis (mm/s, MPa, degC, dimensionless); coordinates within 1e-9 of it count as equal.
 
     Raises
     ------
     InvalidInput
-        Where the axis does not have the value.
+        Where the axis does not have the value, or there is no such axis.
     """
+    if axis not in campaign.dims:
+        raise InvalidInput(f"{described(**{axis: value})} is not in the campaign, which has no such axis")
     known = np.asarray(campaign[axis].values, dtype=np.float64)
     found = np.flatnonzero(np.isclose(known, value, rtol=1e-9, atol=0.0))
     if not found.size:
@@ -124,9 +136,22 @@ def friction_error(campaign: xr.Dataset, **chosen: float) -> xr.DataArray:
     return pick(campaign, "friction_coefficient_error", **chosen)
 
 
+def rubber_error(campaign: xr.Dataset, **chosen: float) -> xr.DataArray | None:
+    """Return what the rubber's data leave open of friction, absolute, as ``pick`` does; None for one not measured.
+
+    Parameters
+    ----------
+    campaign, **chosen
+        As for ``pick``.
+    """
+    return pick(campaign, RUBBER_ERROR, **chosen) if RUBBER_ERROR in campaign else None
+
+
 def described(**chosen: float) -> str:
     """Return values on the axes of a campaign in words: ``scale 1, pressure 5 MPa``."""
-    return ", ".join(f"{_NAMES[axis]} {written(value)}{_UNITS.get(axis, '')}" for axis, value in chosen.items())
+    return ", ".join(
+        f"{_NAMES.get(axis, axis)} {written(value)}{_UNITS.get(axis, '')}" for axis, value in chosen.items()
+    )
 
 
 def written(value: float) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
+
+from rubfric.results.selection import BEYOND, RUBBER_ERROR
 
 _WIDTH = 34
 _COVERED = "mesh, solver, kinematics; not other phases of the waves, the rubber's data or its finite-strain law"
@@ -16,13 +19,15 @@ def summary(result: xr.Dataset) -> str:
     """Return a result as text: the friction first, then contact, mesh and kinematics, then any warnings."""
     attributes = result.attrs
     friction = float(result["friction_coefficient"])
+    warm = f", {attributes['temperature']:g} degC" if "temperature" in attributes else ""
     lines = [
         f"{attributes['rubber']} on {_road(attributes)}, "
-        f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa, "
+        f"{attributes['velocity']:g} mm/s, {attributes['pressure']:g} MPa{warm}, "
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
         _line("friction coefficient", f"{friction:.5g} +- {float(result['friction_coefficient_error']):.1g}"),
         *([_line("  the error covers", _COVERED)] if "phase" in attributes else []),
+        *_rubber_error(result),
         _line("  from viscous dissipation", f"{float(result['friction_coefficient_dissipation']):.5g}"),
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
         _line("  largest difference", f"{float(result['energy_closure']):.2g} (relative)"),
@@ -39,6 +44,16 @@ def summary(result: xr.Dataset) -> str:
     if warnings:
         lines += ["", *(f"Note: {line}" for line in warnings)]
     return "\n".join(lines)
+
+
+def _rubber_error(result: xr.Dataset) -> list[str]:
+    """Return what the data of a measured rubber leave open of friction."""
+    if RUBBER_ERROR not in result:
+        return []
+    samples = len((json.loads(result.attrs["scene_parameters"])["measured"])["samples"])
+    scatter = f"scatter by {samples} samples" if samples else "scatter not asked for (uncertainty)"
+    share = f"{100.0 * float(result[BEYOND]):.2g} % from beyond the measured frequencies"
+    return [_line("  from the rubber's data", f"+- {float(result[RUBBER_ERROR]):.1g} ({scatter}; {share})")]
 
 
 def _road(attributes: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 import xarray as xr
@@ -11,12 +11,16 @@ import xarray as xr
 from rubfric.checksums import AGAIN, check_signature, sign
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
-from rubfric.results.selection import check_variables
+from rubfric.results.scalars import OF_MEASURED
+from rubfric.results.selection import BEYOND, RUBBER_ERROR, check_variables
+from rubfric.results.temperature import AXIS, COLUMN, at_temperature
 
 # variable: heading
 _COLUMNS = {
     "friction_coefficient": "friction_coefficient",
     "friction_coefficient_error": "friction_coefficient_error",
+    RUBBER_ERROR: RUBBER_ERROR,
+    BEYOND: BEYOND,
     "friction_coefficient_dissipation": "friction_coefficient_dissipation",
     "friction_coefficient_contact": "friction_coefficient_contact",
     "energy_closure": "energy_closure",
@@ -41,7 +45,7 @@ _AXES = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
 
 
 def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
-    """Return all scenes of one scale, by aspect, pressure and speed.
+    """Return all scenes of one scale, by temperature where there are several, aspect, pressure and speed.
 
     Parameters
     ----------
@@ -55,11 +59,23 @@ def scale_table(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
     BrokenResult
         If the campaign lacks a variable of the table.
     """
-    check_variables(campaign, *_COLUMNS)
-    chosen = campaign[list(_COLUMNS)].sel(scale=scale, drop=True)
+    columns = [name for name in _COLUMNS if name not in OF_MEASURED or name in campaign]
+    check_variables(campaign, *columns)
+    if AXIS in campaign.dims:
+        return by_temperature(
+            {one: scale_table(at_temperature(campaign, one), scale) for one in campaign[AXIS].values.tolist()}
+        )
+    chosen = campaign[columns].sel(scale=scale, drop=True)
     table = chosen.to_dataframe(dim_order=["aspect", "pressure", "velocity"]).dropna(subset=["friction_coefficient"])
     table = table.astype(dict.fromkeys(_WHOLE, int))
-    return table.reset_index()[["velocity", "pressure", "aspect", *_COLUMNS]].rename(columns=_AXES | _COLUMNS)
+    return table.reset_index()[["velocity", "pressure", "aspect", *columns]].rename(columns=_AXES | _COLUMNS)
+
+
+def by_temperature(tables: Mapping[float, pd.DataFrame]) -> pd.DataFrame:
+    """Return tables, each of a temperature (degC), as one that has it in its third column."""
+    for temperature, table in tables.items():
+        table.insert(2, COLUMN, temperature)
+    return pd.concat(tables.values(), ignore_index=True)
 
 
 def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool = True) -> pd.DataFrame:

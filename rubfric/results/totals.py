@@ -13,7 +13,9 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.results.scales import AXES, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, check_variables, refusals
+from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, check_variables, refusals
+from rubfric.results.tables import by_temperature
+from rubfric.results.temperature import at_temperature
 from rubfric.results.whole_road import WholeRoad
 
 # What the note says where the whole road would take minutes in finite strain.
@@ -23,6 +25,8 @@ ONE_ROAD = "one road with these phases"
 # The ways that are models of the coupling; the direct total is what they are judged by.
 MODELS = tuple(way for way in WAYS if way != "direct")
 _PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error")
+# And of a measured rubber.
+RUBBER_PART = "friction_rubber_error"
 
 
 class _Total(NamedTuple):
@@ -33,11 +37,32 @@ class _Total(NamedTuple):
     coupling: float = 0.0
     road: float = np.nan
     draws: int = 0
+    rubber: float = np.nan
 
     @property
     def error(self) -> float:
-        """The whole error; random phases count where they were drawn."""
-        return self.numerical + self.coupling + (0.0 if np.isnan(self.road) else self.road)
+        """The whole error; random phases count where they were drawn, the rubber's data where it was measured."""
+        return self.numerical + self.coupling + sum(part for part in (self.road, self.rubber) if not np.isnan(part))
+
+
+def total_tables(
+    campaign: xr.Dataset, whole: xr.Dataset | None, roads: Mapping[float | None, WholeRoad]
+) -> pd.DataFrame:
+    """Return ``total_table`` of every temperature as one table, which has it in its third column.
+
+    Parameters
+    ----------
+    campaign, whole
+        As for ``total_table``, over temperature too.
+    roads : mapping of float to WholeRoad
+        By temperature, degC; a rubber as it is given has one, under None, and no such column.
+    """
+    tables = {
+        one: total_table(at_temperature(campaign, one), None if whole is None else at_temperature(whole, one), road)
+        for one, road in roads.items()
+    }
+    warm = {one: table for one, table in tables.items() if one is not None}
+    return by_temperature(warm) if warm else tables[None]
 
 
 def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad) -> pd.DataFrame:
@@ -57,7 +82,8 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
         A row for each pressure (MPa) and speed (mm/s) at which all scales were run. ``friction_total`` is that by
         ``way``; its absolute error is the sum of ``friction_numerical_error``, ``friction_coupling_error``, which
         bounds what a model of the coupling of scales changes, and, where phases were drawn,
-        ``friction_road_error``, the standard error of the mean over them. The other ways have their whole errors.
+        ``friction_road_error``, the standard error of the mean over them, and, of a measured rubber,
+        ``friction_rubber_error``, what its data leave open. The other ways have their whole errors.
 
     Raises
     ------
@@ -67,6 +93,7 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
     check_variables(campaign, "friction_coefficient", "friction_coefficient_error", "nominal_compression")
     at = campaign.sel(aspect=road.aspect)
     total, error = total_friction(at["friction_coefficient"]), total_error(at["friction_coefficient_error"])
+    data = total_error(at[RUBBER_ERROR]) if RUBBER_ERROR in at else None  # one rubber: its errors have one sign
     reasons = {point[1:3]: reason for point, reason in (refusals(whole) if whole is not None else {}).items()}
     scales, rows = [f"friction_scale_{scale}" for scale in at["scale"].values], []
     for pressure, velocity in product(at["pressure"].values.tolist(), at["velocity"].values.tolist()):
@@ -74,6 +101,8 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
         single = _Total(float(total.sel(place)), float(error.sel(place)))
         if np.isnan(single.friction):
             continue
+        if data is not None:
+            single = single._replace(rubber=float(data.sel(place)))
         found = _totals(road, velocity, pressure, single)
         if whole is not None:
             found["direct"] = _direct(whole.sel(place))
@@ -86,12 +115,14 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
             | {f"friction_{name}_error": each.error for name, each in found.items()}
             | dict(zip(TOTAL, (counts.friction, counts.error), strict=True))
             | dict(zip(_PARTS, (counts.numerical, counts.coupling, counts.road), strict=True))
+            | ({} if data is None else {RUBBER_PART: counts.rubber})
             | {"nominal_compression": float(one["nominal_compression"].max()), "refused": refused}
             | dict(zip(WORDS, (way, note), strict=True))
         )
     ways = [f"friction_{way}" for way in WAYS]
     others = [*ways, *(f"{way}_error" for way in ways), *scales, "nominal_compression", "refused"]
-    return pd.DataFrame(rows, columns=[*AXES, *TOTAL, WORDS[0], *_PARTS, *others, WORDS[1]])
+    parts = [*_PARTS, *([] if data is None else [RUBBER_PART])]
+    return pd.DataFrame(rows, columns=[*AXES, *TOTAL, WORDS[0], *parts, *others, WORDS[1]])
 
 
 def _totals(road: WholeRoad, velocity: float, pressure: float, single: _Total) -> dict[str, _Total]:
@@ -108,7 +139,7 @@ def _totals(road: WholeRoad, velocity: float, pressure: float, single: _Total) -
         bound = max(
             one.error(way) * abs(each) + abs(each - friction) for one, each in zip(couplings, totals, strict=True)
         )
-        found[way] = _Total(friction, abs(single.numerical * share), bound)
+        found[way] = _Total(friction, abs(single.numerical * share), bound, rubber=abs(single.rubber * share))
     return found
 
 
@@ -116,6 +147,8 @@ def _direct(whole: xr.Dataset) -> _Total:
     """Return the direct total at one point of the collection of the whole road."""
     at = whole.isel(scale=0, aspect=0)
     total = _Total(float(at["friction_coefficient"]), float(at["friction_coefficient_error"]))
+    if RUBBER_ERROR in at:
+        total = total._replace(rubber=float(at[RUBBER_ERROR]))
     return total._replace(road=float(at[ROAD_ERROR]), draws=int(at[DRAWS])) if DRAWS in at else total
 
 

@@ -15,6 +15,7 @@ from rubfric.mechanics.steady.resolution import (
 )
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.layer import excitation_frequency
+from rubfric.results.rubber_error import beyond_warning
 
 # Above this share of the shear-wave speed inertia would matter; the model has none.
 _SPEED_LIMIT = 0.3
@@ -55,6 +56,7 @@ def warnings(solution: SteadySolution, closure: float) -> list[str]:
         found.append("The surface is about to fold: finer meshes will differ.")
     if closure > max(_CLOSURE_LIMIT, scene.numerics.accuracy):
         found.append(f"The three friction coefficients differ by {closure:.1%}: the mesh does not resolve this scene.")
+    found += beyond_warning(solution)
     found += _inaccurate(solution)
     if not solution.resolved:
         more = "raise numerics.columns_max"

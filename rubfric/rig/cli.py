@@ -111,6 +111,12 @@ def _add_simulate(own: Any, configs: Callable[[list[Path]], list[Path]]) -> None
     simulate.add_argument("--output", "-o", type=Path, required=True, metavar="FILE", help="CSV file to write")
     simulate.add_argument("--scale", type=int, help="friction of this scale of the road alone (default: their sum)")
     simulate.add_argument(
+        "--temperature",
+        type=float,
+        metavar="T",
+        help="of the rubber, degC, out of the campaign's (default: the config's)",
+    )
+    simulate.add_argument(
         "--campaign",
         type=Path,
         metavar="FILE",
@@ -153,17 +159,19 @@ def _simulate(options: argparse.Namespace) -> int:
     from rubfric.results.friction_map import FrictionMap
     from rubfric.results.scales import WORDS
     from rubfric.results.tables import read_table
+    from rubfric.results.temperature import rows_at
     from rubfric.rig.virtual import simulate
 
+    warm = campaign.figures.temperature if options.temperature is None else options.temperature
     results = options.campaign or Path(campaign.results) / "campaign.nc"
     totals = results.parent / "tables" / "friction_total.csv"
     needed = totals if options.scale is None else results
     if not needed.is_file():
         raise FileNotFoundError(f"there is no {needed}: run snakemake first, or give --campaign FILE")
     if options.scale is None:
-        friction = FrictionMap.from_totals(read_table(totals, WORDS, signed=False))
+        friction = FrictionMap.from_totals(rows_at(read_table(totals, WORDS, signed=False), warm))
     else:
-        friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale)
+        friction = FrictionMap.from_campaign(read(results), campaign.aspect, options.scale, warm)
     print(simulate(friction, virtual, options.pressure, options.weight, options.speed, options.output))
     return 0
 

@@ -24,6 +24,8 @@ from rubfric.rules import Choice, Items, Number, Word, check_fields
 MODULI = ("long_term", "instantaneous")
 BULK = ("elastic", "proportional")
 PLANES = ("stress", "strain")
+# Temperatures at which something is still called rubber, degC.
+COLDEST, HOTTEST = -200.0, 500.0
 # Least share that never relaxes: twelve digits of the others give it to about one per cent.
 _LEAST_SHARE = 5e-10
 

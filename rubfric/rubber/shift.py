@@ -18,15 +18,13 @@ import numpy as np
 
 from rubfric import checks
 from rubfric.errors import InvalidInput
-from rubfric.rubber.material import Material
+from rubfric.rubber.material import COLDEST, HOTTEST, Material
 from rubfric.rules import Choice, Items, Number, check_fields
 
 LAWS = ("wlf", "arrhenius", "table")
 VERTICAL = ("none", "entropic", "table")
 # 0 degC in K, and the gas constant in kJ/(mol K).
 KELVIN, GAS = 273.15, 8.314462618e-3
-# Temperatures at which something is still called rubber, degC.
-COLDEST, HOTTEST = -200.0, 500.0
 # By how much the reference may lie beyond a table, K: isotherms stray from their nominal temperature.
 _BEYOND = 1.01
 
@@ -62,10 +60,12 @@ class Shift:
         tuple[float, ...], _column("Temperatures of a table, ascending.", COLDEST, HOTTEST, "degC")
     ] = ()
     log_factors: Annotated[
-        tuple[float, ...], _column("log10 a_T at the temperatures of the table, descending.", -100.0, 100.0)
+        tuple[float, ...], _column("Logarithms (base 10) of a_T at these temperatures, descending.", -100.0, 100.0)
     ] = ()
     vertical: Annotated[str, Choice("Moduli: b_T = 1, T over T_ref in K, or those of a table.", VERTICAL)] = "none"
-    log_moduli: Annotated[tuple[float, ...], _column("log10 b_T at the temperatures of the table.", -10.0, 10.0)] = ()
+    log_moduli: Annotated[
+        tuple[float, ...], _column("Logarithms (base 10) of b_T at these temperatures.", -10.0, 10.0)
+    ] = ()
 
     def __post_init__(self) -> None:
         check_fields(self, "shift.")

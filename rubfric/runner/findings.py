@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
+from rubfric.results.selection import RUBBER_ERROR
 
 # How a total was obtained, in words.
 WAYS = {
@@ -34,6 +35,7 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     scenes, warned, worst, where = 0, 0, -1.0, ""
+    data = -1.0
     for path in tables:
         for row in _rows(path, "friction_coefficient_error", "warnings"):
             friction, error = float(row["friction_coefficient"]), float(row["friction_coefficient_error"])
@@ -41,11 +43,14 @@ def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
             warned += int(row["warnings"]) > 0
             if friction and error / abs(friction) > worst:
                 worst, where = error / abs(friction), _place(path, row)
+            if friction and row.get(RUBBER_ERROR):
+                data = max(data, float(row[RUBBER_ERROR]) / abs(friction))
     if not scenes:
         return []
     carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
         *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
+        *([f"beside that at most {100.0 * data:.2g} % from the data of the rubber"] if data >= 0.0 else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 
@@ -72,7 +77,12 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
 
 
 def _point(row: dict[str, str]) -> str:
-    return f"at {float(row['velocity_mm_per_s']):g} mm/s, {float(row['pressure_MPa']):g} MPa"
+    return f"at {float(row['velocity_mm_per_s']):g} mm/s, {float(row['pressure_MPa']):g} MPa{_warm(row)}"
+
+
+def _warm(row: dict[str, str]) -> str:
+    """Return the temperature of a row in words; nothing where there is none."""
+    return f", {float(row['temperature_degC']):g} degC" if row.get("temperature_degC") else ""
 
 
 def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
@@ -88,7 +98,7 @@ def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
 def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
     scale = os.path.splitext(os.path.basename(path))[0].rpartition("_")[2]
     height = f"height/width {row['aspect']}"
-    return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa, {height}"
+    return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa{_warm(row)}, {height}"
 
 
 def highest(path: str | os.PathLike[str]) -> str:
@@ -100,7 +110,7 @@ def highest(path: str | os.PathLike[str]) -> str:
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa ({WAYS[top['way']]})"
+        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({WAYS[top['way']]})"
     )
 
 

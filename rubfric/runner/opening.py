@@ -9,13 +9,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.config.campaign import Campaign
+from rubfric.config.references import spread
+from rubfric.config.temperature import rubber_at
+from rubfric.rubber.material import Material
 from rubfric.scene.scene import Scene
 
 # CPU time of one job, s, as docs/performance.md has it for two cores of an AMD EPYC: mean of the paper's 224 scenes in
 # finite strain at 1 %, of its four marches, and of 42 scenes of the whole road, reduced to 1 %. Small strain and other
 # accuracies by the factors measured there.
 _SCENE, _WHOLE, _MARCH, _TABLE, _FIGURE, _OTHER = 0.56, 10.0, 17.0, 0.5, 0.9, 1.0
+# The fit of a rubber with 200 bootstrap samples, and its page.
+_FIT = 5.0
 _SMALL, _STEPS = 0.05, 64 * 64 * 12
+# Temperatures of which the moduli are named.
+_MOST_TEMPERATURES = 5
 # Accuracy, and the time that it takes over that of 1 %.
 _ACCURACIES, _FACTORS = (0.002, 0.01, 0.05), (4.8, 1.0, 0.44)
 
@@ -34,13 +41,15 @@ class Costs:
         march = campaign.procedure()
         steps = march["columns"] * march["steps_per_wavelength"] * march["wavelengths"] / _STEPS
         # A reading's batch holds the scenes of one scale and speed.
-        reading = len(campaign.scenes()) / (len(campaign.scales) * len(campaign.velocities))
+        one = campaign.at(campaign.figures.temperature)
+        reading = len(one.scenes()) / (len(campaign.scales) * len(campaign.velocities))
         draft = campaign.presets[campaign.claims.preset].accuracy if campaign.claims else 0.05
         return cls(
             {
                 "scene": _SCENE * scene,
                 "whole_scene": _WHOLE * _weight(whole) if whole else 0.0,
                 "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
+                "rubber_fit": _FIT,
                 "reading": _SCENE * reading * _factor(draft) * 0.3,
             }
         )
@@ -86,7 +95,8 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         campaign.words().removesuffix("."),
         *([f"a campaign of your own, {grid}{without}"] if own else []),
         *_scales(campaign),
-        _moduli(campaign),
+        *_fit(campaign),
+        *_moduli(campaign),
         _scenes(campaign),
     ]
     return [*lines, *(f"UNLIKELY: {sentence}" for sentence in campaign.unlikely())]
@@ -100,21 +110,58 @@ def _scales(campaign: Campaign) -> list[str]:
     ]
 
 
-def _moduli(campaign: Campaign) -> str:
+def _fit(campaign: Campaign) -> list[str]:
+    """Say what a measured rubber was fitted to, and whether the road excites it beyond what was measured."""
+    fitted = campaign.fitted
+    if fitted is None:
+        return []
+    slow, fast = _excited(campaign)
+    beyond = []
+    for one in campaign.temperatures or (None,):
+        low, high = fitted.at(one)[1].window
+        where = [f"from {slow:.3g} rad/s up"] * (slow < low) + [f"up to {fast:.3g} rad/s"] * (fast > high)
+        if where:
+            at = "" if one is None else f" at {one:g} degC, measured from {low:.3g} to {high:.3g} rad/s as from there"
+            beyond.append(f"the road excites it {' and '.join(where)}{at}, beyond that: such scenes carry a warning")
+    return [
+        "; ".join([fitted.words, *beyond]),
+        *(f"the fit of {fitted.material.name}: {one}" for one in fitted.warnings),
+    ]
+
+
+def _excited(campaign: Campaign) -> tuple[float, float]:
+    """Return the lowest and the highest angular frequency k v of the campaign, rad/s."""
     numbers = [scale.wavenumber for scale in campaign.road]
-    low, high = min(numbers) * campaign.velocities[0], max(numbers) * campaign.velocities[-1]
-    modulus = campaign.material.plane_modulus(np.geomspace(low, high, 64), "stress")
-    loss = modulus.imag / modulus.real
-    return (
-        f"the road excites the rubber at {low:.3g} to {high:.3g} rad/s, where E' is {modulus.real.min():.3g} to "
-        f"{modulus.real.max():.3g} MPa and the loss factor {loss.min():.2g} to {loss.max():.2g}"
-    )
+    return min(numbers) * campaign.velocities[0], max(numbers) * campaign.velocities[-1]
+
+
+def _moduli(campaign: Campaign) -> list[str]:
+    low, high = _excited(campaign)
+    excited = f"the road excites the rubber at {low:.3g} to {high:.3g} rad/s"
+
+    def found(material: Material) -> str:
+        modulus = material.plane_modulus(np.geomspace(low, high, 64), "stress")
+        loss = modulus.imag / modulus.real
+        return (
+            f"E' is {modulus.real.min():.3g} to {modulus.real.max():.3g} MPa and the loss factor {loss.min():.2g} to "
+            f"{loss.max():.2g}"
+        )
+
+    if campaign.shift is None or not campaign.temperatures:
+        return [f"{excited}, where {found(campaign.material)}"]
+    lines = []
+    for one in spread(campaign.temperatures, _MOST_TEMPERATURES):
+        factor, rubber = campaign.shift.log_factor(one), rubber_at(campaign.material, campaign.shift, one)
+        lines.append(f"at {one:g} degC (a_T = {10.0**factor:.3g}) {found(rubber)}")
+    return [excited, *lines]
 
 
 def _scenes(campaign: Campaign) -> str:
     scales, speeds, loads = len(campaign.road), len(campaign.velocities), len(campaign.pressures)
-    grid, total = scales * speeds * loads, len(campaign.scenes())
-    parts = [f"{grid} scenes: {_many(scales, 'scale')} at {_many(speeds, 'speed')} and {_many(loads, 'load')}"]
+    temperatures = len(campaign.temperatures)
+    grid, total = scales * speeds * loads * max(temperatures, 1), len(campaign.scenes())
+    warm = f" at {_many(temperatures, 'temperature')}" if temperatures else ""
+    parts = [f"{grid} scenes: {_many(scales, 'scale')} at {_many(speeds, 'speed')} and {_many(loads, 'load')}{warm}"]
     parts += [f"{total - grid} more of the aspect study"] if total > grid else []
     parts += [f"{whole} of the whole road"] if (whole := len(campaign.whole_scenes())) else []
     return ", ".join(parts)

@@ -13,7 +13,8 @@ from rubfric import checks
 from rubfric.errors import InvalidInput
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
-from rubfric.rubber.material import PLANES, Material
+from rubfric.rubber.fitted import Measured
+from rubfric.rubber.material import COLDEST, HOTTEST, PLANES, Material
 from rubfric.rules import Choice, Integer, Number, check_fields
 from rubfric.scene.numerics import Numerics
 
@@ -22,6 +23,8 @@ KINEMATICS = ("small", "finite", "auto")
 ALL = "all"
 # Height over width of a block, unless another is given: that of the paper's campaign.
 ASPECT = 0.75
+# What most scenes are without; it is left out of the parameters then.
+_OPTIONAL = ("temperature", "measured")
 # Fewest columns in the height of a block: cells much wider than it is high would lock.
 COLUMNS_PER_HEIGHT = 8
 
@@ -63,6 +66,10 @@ class Scene:
         Accuracy and resolution.
     kinematics : {"small", "finite", "auto"}
         Small strain, finite strain, or small strain only where that is accurate enough.
+    temperature : float, optional
+        Of the rubber, degC; ``material`` is the rubber at it. None for a rubber that is known at one temperature only.
+    measured : Measured, optional
+        What the measurement leaves open of a rubber that was fitted to one.
     """
 
     scale: Annotated[int | str, ScaleOfScene(high=10**6)]
@@ -74,6 +81,8 @@ class Scene:
     plane: Annotated[str, Choice(words=PLANES)] = "stress"
     numerics: Numerics = field(default_factory=Numerics)
     kinematics: Annotated[str, Choice(words=KINEMATICS)] = "auto"
+    temperature: Annotated[float | None, Number(unit="degC", low=COLDEST, high=HOTTEST)] = None
+    measured: Measured | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -88,10 +97,14 @@ class Scene:
 
     @property
     def name(self) -> str:
-        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``, or ``all_v100_...``; one scene, one name."""
+        """Canonical name: ``scale1_v100_p5_aspect0.75_stress``, or ``all_v100_...``; one scene, one name.
+
+        With a temperature ``scale1_v100_p5_T20_aspect0.75_stress``.
+        """
         scale = self.scale if self.scale == ALL else f"scale{self.scale}"
-        numbers = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
-        return "{}_v{}_p{}_aspect{}_{}".format(scale, *numbers, self.plane)
+        velocity, pressure, aspect = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
+        warm = "" if self.temperature is None else f"_T{checks.written(self.temperature)}"
+        return f"{scale}_v{velocity}_p{pressure}{warm}_aspect{aspect}_{self.plane}"
 
     @property
     def height(self) -> float:
@@ -101,17 +114,21 @@ class Scene:
     def parameters(self) -> dict[str, Any]:
         """Return plain nested values (numbers, words, lists) that ``from_parameters`` reads back."""
         own = {each.name: getattr(self, each.name) for each in fields(self)}
-        return own | {name: _copied(_plain(own[name])) for name in ("road", "material", "numerics")}
+        nested = ["road", "material", "numerics", *(["measured"] if self.measured else [])]
+        own |= {name: _copied(_plain(own[name])) for name in nested}
+        return {name: value for name, value in own.items() if name not in _OPTIONAL or value is not None}
 
     @classmethod
     def from_parameters(cls, parameters: Mapping[str, Any]) -> Scene:
         """Build the scene that ``parameters`` describes; InvalidInput names what is wrong."""
-        given = dict(_known("scene parameters", parameters, cls))
+        given = dict(_known("scene parameters", dict.fromkeys(_OPTIONAL) | dict(parameters), cls))
         kind = WaveRoad if given["scale"] == ALL else SineScale
         road = kind(**_known("road", given.pop("road"), kind))
         material = Material(**_known("material", given.pop("material"), Material))
         numerics = Numerics(**_known("numerics", given.pop("numerics"), Numerics))
-        return cls(road=road, material=material, numerics=numerics, **given)
+        held = given.pop("measured")
+        measured = held and Measured.from_parameters(held)
+        return cls(road=road, material=material, numerics=numerics, measured=measured, **given)
 
     @property
     def digest(self) -> str:
@@ -124,7 +141,7 @@ def _no_material() -> Material:
 
 
 @lru_cache(maxsize=256)
-def _plain(part: SineScale | WaveRoad | Material | Numerics) -> dict[str, Any]:
+def _plain(part: SineScale | WaveRoad | Material | Numerics | Measured) -> dict[str, Any]:
     """Return the plain values of what thousands of scenes share; not to be changed."""
     return json.loads(json.dumps(asdict(part)))
 

@@ -15,12 +15,13 @@ from synthetic_campaign import make_totals
 from visit import MISSING, missing_program, requested_addresses, resize, start
 
 import rubfric
-from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.data import payload, together
 from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
 from rubfric.results.provenance import refusal
+from rubfric.results.temperature import at_temperature
 
 CONFIG = Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml"
 SCALES, SPEEDS, PRESSURES, ASPECT = (1, 2), (1.0, 100.0, 1000.0, 10000.0), (0.5, 5.0), 0.75
@@ -121,3 +122,24 @@ def explorer(
 def whole(explorer: Explorer) -> Explored:
     """Return the page of all the scenes."""
     return explorer()
+
+
+@pytest.fixture(scope="session")
+def warm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the page of a scale at two temperatures."""
+    shift = {"law": "wlf", "c1": 8.0, "c2": 100.0, "reference_temperature": 20.0}
+    campaign = rubfric.load({"rubbers": {"zhou2019": {"shift": shift}}})
+    folder, payloads = tmp_path_factory.mktemp("warm"), {}
+    for temperature in (20.0, 60.0):
+        results = [
+            rubfric.simulate(campaign.scene(1, speed, 0.5, preset="draft", kinematics="small", temperature=temperature))
+            for speed in (1.0, 100.0)
+        ]
+        for result in results:
+            rubfric.write(result, folder / f"{result.attrs['scene']}.nc")
+        collected = collection.collect(folder.glob(f"*_T{temperature:g}_*.nc"))
+        scales = at_temperature(collected, temperature)
+        payloads[temperature] = payload(scales, make_totals(scales), results, ASPECT, "road", share=0.5)
+    path = folder / "explorer.html"
+    write_page(page(together(payloads, 20.0)), path)
+    return path

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -359,3 +360,17 @@ def test_without_javascript_a_sentence_says_so(browser: WebDriver, whole: Any) -
         assert "draws with JavaScript" in browser.find_element("tag name", "noscript").text
     finally:
         browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+
+
+def test_temperature_is_chosen_and_part_of_the_address(browser: WebDriver, warm: Path) -> None:
+    open_explorer(browser, warm, "scale=1&view=curves&pressure=0.5&speed=100")
+    assert "Rubber at 20" in words(browser, "about")
+    cool = words(browser, "headline")
+    choose(browser, "temperature", "1")
+    assert settled(browser) == "#scale=1&view=curves&pressure=0.5&speed=100&temperature=60"
+    assert "Rubber at 60" in words(browser, "about")
+    assert words(browser, "headline") != cool
+    open_explorer(browser, warm, "scale=1&temperature=20")
+    settled(browser)
+    assert "Rubber at 20" in words(browser, "about")
+    assert console_errors(browser) == []

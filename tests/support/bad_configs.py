@@ -31,7 +31,7 @@ UNKNOWN_KEYS = [
     Bad("colour", "red", r"config has the unknown key 'colour'; allowed are results, rubber, .*, roads$"),
     Bad("grid.velocity", [1], r"grid has the unknown key 'velocity'; .* \(did you mean velocities\?\)"),
     Bad("aspect_study.aspect", [1], r"aspect_study has the unknown key 'aspect'; .* \(did you mean aspects\?\)"),
-    Bad("figures.presure", 5, r"figures has the unknown key 'presure'; allowed are total_pressure, fields"),
+    Bad("figures.presure", 5, r"figures has the unknown key 'presure'; allowed are total_pressure, temperature, f"),
     Bad("figures.fields.scales", 1, r"figures.fields has the unknown key 'scales'; .* \(did you mean scale\?\)"),
     Bad("numerics.column_min", 8, r"numerics has the unknown key 'column_min'; .* \(did you mean columns_min\?\)"),
     Bad(f"{RUBBER}.bulk_fractions", [0.1], r"unknown key 'bulk_fractions'; .* \(did you mean bulk\?\)"),

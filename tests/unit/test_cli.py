@@ -47,6 +47,20 @@ def test_plane_and_aspect_replace_those_of_the_config(capsys: pytest.CaptureFixt
     assert "height/width 0.5, plane strain" in out
 
 
+def test_temperature_is_that_of_the_rubber(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    overlay = tmp_path / "warm.yaml"
+    shift = "{law: wlf, c1: 8.0, c2: 100.0, reference_temperature: 20}"
+    overlay.write_text(f"rubbers: {{zhou2019: {{shift: {shift}}}}}\n")
+    for options, temperature in ((["--temperature", "-10"], -10.0), ([], None)):
+        assert cli.main([*SCENE, "--config", str(overlay), *options]) == 0
+        expected = simulate(load(CONFIG, overlay).scene(1, 100, 5, kinematics="small", temperature=temperature))
+        out = capsys.readouterr().out
+        assert printed_friction(out) == f"{float(expected['friction_coefficient']):.5g}"
+        assert ("100 mm/s, 5 MPa, -10 degC, height" in out) == (temperature is not None)
+    assert cli.main([*SCENE, "--temperature", "60"]) == 2
+    assert "rubber zhou2019 is known at one temperature only: give its shift factors" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("kinematics", ["small", "finite"])
 def test_kinematics_replaces_that_of_the_config(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], kinematics: str

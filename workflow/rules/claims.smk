@@ -2,7 +2,7 @@
 # open, in batches of one scale and speed, so that a new speed runs its own scenes only. Each has the whole road too, the
 # first of random ones, as one scale more.
 JUDGE = CAMPAIGN.claims
-READINGS = {name: CAMPAIGN.reading(name) for name in (JUDGE.compare if JUDGE else ())}
+READINGS = {name: AT_ONE.reading(name) for name in (JUDGE.compare if JUDGE else ())}
 OBSERVED = {
     name: batches_by_speed(reading.scenes() | whole_once(reading))
     for name, reading in READINGS.items()
@@ -12,6 +12,11 @@ CLAIMS = {
     "evidence": f"{RESULTS}/tables/claims_evidence.csv",
     "page": f"{RESULTS}/claims.html",
 }
+JUDGED_AT = (
+    f" Of {len(CAMPAIGN.temperatures)} temperatures, claims are judged at {TEMPERATURE:g} degC."
+    if len(CAMPAIGN.temperatures) > 1
+    else ""
+)
 CLAIM_FILES = [*CLAIMS.values()] if JUDGE else []
 JUDGED = {
     "campaign": f"{RESULTS}/campaign.nc",
@@ -101,11 +106,12 @@ if JUDGE:
                 },
             },
             criteria=criteria(CAMPAIGN),
+            temperature=TEMPERATURE,
             roads={
                 name: reading.whole_parameters() for name, reading in READINGS.items()
             },
             about={
-                AS_CONFIGURED: CAMPAIGN.words(),
+                AS_CONFIGURED: AT_ONE.words() + JUDGED_AT,
                 **{name: reading.words() for name, reading in READINGS.items()},
             },
         message:

@@ -41,6 +41,9 @@ def in_place(folder):
 RESULTS = in_place(CAMPAIGN.results)
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
+# The temperature of whatever shows one, and the campaign at it; None, and the campaign itself, where it has none.
+TEMPERATURE = CAMPAIGN.figures.temperature
+AT_ONE = CAMPAIGN.at(TEMPERATURE)
 # What jobs need of the workflow itself, in a form that Snakemake watches.
 SOURCES = ".snakemake/sources"
 # Where things are in the report, which sorts by name.
@@ -55,8 +58,8 @@ REPORT = SimpleNamespace(
 
 
 wildcard_constraints:
-    scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+_aspect[0-9.e-]+_(stress|strain)",
+    scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -199,6 +202,7 @@ def made_for_a_config():
             [*FIGURES, *MARCH_FIGURE],
         ),
         "rig_points": RIG_TABLES,
+        "rubber_fit": RUBBER_FILES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -224,6 +228,7 @@ def follow(workflow):
                 "tables/friction_total.csv",
                 "figures/fig6.png",
                 "explorer.html",
+                *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
             )
         ],
         dry=lambda: workflow.dryrun,

@@ -36,6 +36,11 @@ rule explorer:
                 scene.digest
                 for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
             ],
+            "temperatures": [
+                scene.temperature
+                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+            ],
+            "shown": TEMPERATURE,
         },
     message:
         "The campaign to explore in a browser: {output}"

@@ -17,6 +17,16 @@ TOTAL_FIGURES = {
         "pressures": sorted({min(SHOWN.pressures), CAMPAIGN.figures.total_pressure})
     },
 }
+# And one of all temperatures, where there are several.
+if len(CAMPAIGN.temperatures) > 1:
+    TOTAL_FIGURES["fig12"] = {
+        "pressure": CAMPAIGN.figures.total_pressure,
+        "factors": {
+            one: (CAMPAIGN.shift.factor(one), CAMPAIGN.shift.modulus_factor(one))
+            for one in CAMPAIGN.temperatures
+        },
+        "reference": CAMPAIGN.shift.reference_temperature,
+    }
 WHOLE_FIGURES = ["fig11"] if WHOLE else []
 
 
@@ -27,12 +37,13 @@ SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
     if name == f"{DRAW}{scene.name}"
+    and scene.temperature == TEMPERATURE
     and scene.pressure in sorted(SHOWN.pressures)[:2]
     and scene.velocity in sorted(SHOWN.velocities)[-3:]
 }
 # Made before Snakemake looks for them: of files that appear while it does it would know nothing.
 DRAWN_BY = {
-    figure: package_files(f"rubfric.figures.{figure}")
+    figure: package_files(f"rubfric.figures.{figure}", "rubfric.figures.temperature")
     for figure in [*CAMPAIGN_FIGURES, *FIELD_FIGURES, *TOTAL_FIGURES, "fig11"]
 }
 FIGURE_WORDS = {
@@ -44,6 +55,7 @@ FIGURE_WORDS = {
     "fig7": "friction of the whole road",
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
+    "fig12": "friction over speed and temperature",
 }
 RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
 FIGURES = [
@@ -77,6 +89,7 @@ rule campaign_figure:
     params:
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
         digests=[COLLECTED],
+        temperature=TEMPERATURE,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -88,6 +101,7 @@ rule campaign_figure:
             choice=params.choice,
             outputs=list(output),
             digests=params.digests,
+            temperature=params.temperature,
         )
 
 
@@ -109,6 +123,7 @@ rule field_figure:
     localrule: True
     params:
         digests=[scene.digest for scene in CAMPAIGN.field_scenes().values()],
+        temperature=TEMPERATURE,
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -120,6 +135,7 @@ rule field_figure:
             choice={},
             outputs=list(output),
             digests=params.digests,
+            temperature=params.temperature,
         )
 
 
@@ -143,6 +159,9 @@ rule total_figure:
     params:
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
+        temperature=lambda wildcards: (
+            None if wildcards.figure == "fig12" else TEMPERATURE
+        ),
     message:
         "Drawing {wildcards.figure}"
     run:
@@ -154,6 +173,7 @@ rule total_figure:
             campaign=input.campaign,
             collected=params.collected,
             choice=params.choice,
+            temperature=params.temperature,
             outputs=list(output),
         )
 
@@ -176,6 +196,7 @@ rule whole_figure:
     params:
         digests=[scene.digest for scene in SHOWN_WHOLE.values()],
         draws=DRAWS,
+        temperature=TEMPERATURE,
     message:
         "Drawing fig11"
     run:
@@ -186,6 +207,7 @@ rule whole_figure:
             outputs=list(output),
             digests=params.digests,
             draws=params.draws,
+            temperature=params.temperature,
         )
 
 

@@ -36,6 +36,7 @@ if CAMPAIGN.rig:
         localrule: True
         params:
             rig=CAMPAIGN.rig.model_dump(),
+            temperature=TEMPERATURE,
         message:
             "Test rig: {output.points}"
         run:
@@ -46,11 +47,12 @@ if CAMPAIGN.rig:
                 rejected=output.rejected,
                 totals=input.totals,
                 rig=params.rig,
+                temperature=params.temperature,
             )
 
     rule rig_figure:
         input:
-            package_files("rubfric.figures.fig9"),
+            package_files("rubfric.figures.fig9", "rubfric.figures.temperature"),
             script=script_copy("draw_rig.py"),
             totals=rules.total_table.output.table,
             points=rules.rig_points.output.points,
@@ -62,6 +64,7 @@ if CAMPAIGN.rig:
         params:
             pressures=list(CAMPAIGN.rig.pressures),
             speeds=list(CAMPAIGN.rig.speeds),
+            temperature=TEMPERATURE,
         message:
             "Drawing fig9"
         run:
@@ -72,6 +75,7 @@ if CAMPAIGN.rig:
                 points=input.points,
                 pressures=params.pressures,
                 speeds=params.speeds,
+                temperature=params.temperature,
                 outputs=list(output),
             )
 

@@ -80,7 +80,7 @@ rule total_table:
         f"{RESULTS}/logs/tables/friction_total.log",
     localrule: True
     params:
-        road=CAMPAIGN.whole_parameters(),
+        roads=ROADS,
         title=TITLE,
         collected=[COLLECTED, WHOLE_COLLECTED],
     message:
@@ -94,7 +94,7 @@ rule total_table:
             campaign=input.campaign,
             whole=list(input.whole),
             collected=params.collected,
-            road=params.road,
+            roads=params.roads,
             title=params.title,
         )
 

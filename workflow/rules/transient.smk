@@ -39,7 +39,7 @@ rule marches:
 
 rule march_figure:
     input:
-        package_files("rubfric.figures.fig5"),
+        package_files("rubfric.figures.fig5", "rubfric.figures.temperature"),
         script=script_copy("draw_figure.py"),
         results=MARCH_FILES,
     output:
@@ -49,6 +49,7 @@ rule march_figure:
     localrule: True
     params:
         digests=[scene.digest for scene in MARCHES.values()],
+        temperature=TEMPERATURE,
     message:
         "Drawing fig5"
     run:
@@ -60,4 +61,5 @@ rule march_figure:
             choice={},
             outputs=list(output),
             digests=params.digests,
+            temperature=params.temperature,
         )

@@ -3,6 +3,11 @@
 WHOLE = CAMPAIGN.whole_scenes()
 # What decides whether a scene of the whole road is needed.
 CHOOSING = ["rubfric.results.whole_road"] if CAMPAIGN.multiscale.way == "auto" else []
+# The parameters of the whole road at each temperature.
+ROADS = {
+    temperature: campaign.whole_parameters()
+    for temperature, campaign in CAMPAIGN.by_temperature.items()
+}
 # Other scenes, another name, as for the collection of the scales.
 WHOLE_MARK = (
     f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}"
@@ -33,7 +38,9 @@ rule whole_scene:
     localrule: workflow.remote_exec
     params:
         parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
-        road=CAMPAIGN.whole_parameters() if CHOOSING else {},
+        road=lambda wildcards: (
+            ROADS[WHOLE[wildcards.whole].temperature] if CHOOSING else {}
+        ),
         version=rubfric.__version__,
     message:
         "{wildcards.whole}"

@@ -3,7 +3,7 @@
 import netCDF4
 
 from rubfric.checksums import check_seal
-from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.data import payload, together
 from rubfric.pages.explorer.page import page
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
@@ -11,6 +11,7 @@ from rubfric.results import dataset
 from rubfric.results.scales import WORDS
 from rubfric.results.selection import REFUSAL
 from rubfric.results.tables import read_table
+from rubfric.results.temperature import at_temperature, rows_at
 
 
 def main(
@@ -23,6 +24,8 @@ def main(
     collected: list[str],
     aspect: float,
     road: str,
+    temperatures: list[float | None],
+    shown: float | None,
 ) -> None:
     """Write the page.
 
@@ -45,11 +48,31 @@ def main(
         Height over width of the blocks.
     road : str
         Name of the road.
+    temperatures : list of float or None
+        Of each result, degC; a rubber as it is given has none.
+    shown : float or None
+        The temperature with which the page begins.
     """
-    results = (dataset.read(path, digest) for path, digest in zip(scenes, digests, strict=True) if not refused(path))
+    table_of_all = read_table(table, WORDS)
     of_road = collection.read(whole[0], collected[1]) if whole else None
     gathered = collection.read(campaign, collected[0])
-    write_page(page(payload(gathered, read_table(table, WORDS), results, aspect, road, of_road)), output)
+    payloads = {}
+    for one in dict.fromkeys(temperatures):
+        results = (
+            dataset.read(path, digest)
+            for path, digest, warm in zip(scenes, digests, temperatures, strict=True)
+            if warm == one and not refused(path)
+        )
+        payloads[one] = payload(
+            at_temperature(gathered, one),
+            rows_at(table_of_all, one),
+            results,
+            aspect,
+            road,
+            None if of_road is None else at_temperature(of_road, one),
+            1.0 / len(set(temperatures)),
+        )
+    write_page(page(together(payloads, shown)), output)
 
 
 def refused(path: str) -> bool:

@@ -4,8 +4,10 @@ from importlib import import_module
 from typing import Any
 
 from rubfric.figures.style import save
+from rubfric.figures.temperature import name_temperature
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
+from rubfric.results.temperature import at_temperature
 
 
 def main(
@@ -14,6 +16,7 @@ def main(
     choice: dict[str, Any],
     outputs: list[str],
     digests: list[str] | None = None,
+    temperature: float | None = None,
 ) -> None:
     """Draw the figure and save it under every path of ``outputs``.
 
@@ -29,11 +32,13 @@ def main(
         Paths; their endings choose the formats.
     digests : list of str, optional
         Digests that single results must have, or what the collection is known by.
+    temperature : float, optional
+        What the figure shows of several, degC, and names.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
     if isinstance(results, str):
-        drawn = draw(collection.read(results, *(digests or [])), **choice)
+        drawn = draw(at_temperature(collection.read(results, *(digests or [])), temperature), **choice)
     else:
         read = [dataset.read(path, digest) for path, digest in zip(results, digests or [], strict=True)]
         drawn = draw(read, **choice)
-    save(drawn, *outputs)
+    save(name_temperature(drawn, temperature), *outputs)

@@ -4,18 +4,28 @@ from importlib import import_module
 from typing import Any
 
 from rubfric.figures.style import save
+from rubfric.figures.temperature import name_temperature
 from rubfric.results.campaign import read
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table
+from rubfric.results.temperature import at_temperature, rows_at
 
 
-def main(figure: str, table: str, campaign: str, collected: str, choice: dict[str, Any], outputs: list[str]) -> None:
+def main(
+    figure: str,
+    table: str,
+    campaign: str,
+    collected: str,
+    choice: dict[str, Any],
+    outputs: list[str],
+    temperature: float | None,
+) -> None:
     """Draw the figure and save it under every path of ``outputs``.
 
     Parameters
     ----------
     figure : str
-        ``fig7``, which shows the scales of the campaign too, or ``fig10``.
+        ``fig7``, which shows the scales of the campaign too, ``fig10``, or ``fig12``, which shows all temperatures.
     table, campaign : str
         Paths of the table of totals (CSV) and of the collection of all scenes (netCDF).
     collected : str
@@ -24,8 +34,11 @@ def main(figure: str, table: str, campaign: str, collected: str, choice: dict[st
         Further arguments of the module's ``draw``.
     outputs : list of str
         Paths; their endings choose the formats.
+    temperature : float or None
+        What the figure shows of several, degC, and names.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
     totals = read_table(table, WORDS)
-    drawn = draw(read(campaign, collected), totals, **choice) if figure == "fig7" else draw(totals, **choice)
-    save(drawn, *outputs)
+    totals = totals if temperature is None else rows_at(totals, temperature)
+    scales = [at_temperature(read(campaign, collected), temperature)] if figure == "fig7" else []
+    save(name_temperature(draw(*scales, totals, **choice), temperature), *outputs)

@@ -3,11 +3,12 @@
 from rubfric.errors import BrokenResult
 from rubfric.figures import fig11
 from rubfric.figures.style import save
+from rubfric.figures.temperature import name_temperature
 from rubfric.results.dataset import load
 from rubfric.results.provenance import OTHER_SCENE
 
 
-def main(results: list[str], digests: list[str], outputs: list[str], draws: int) -> None:
+def main(results: list[str], digests: list[str], outputs: list[str], draws: int, temperature: float | None) -> None:
     """Draw figure 11 and save it under every path of ``outputs``.
 
     Parameters
@@ -18,10 +19,12 @@ def main(results: list[str], digests: list[str], outputs: list[str], draws: int)
         Paths; their endings choose the formats.
     draws : int
         Roads with random phases, of which the results are of the first; 0 where phases are given.
+    temperature : float or None
+        That of the results, degC, which the figure names.
     """
     read = []
     for path, digest in zip(results, digests, strict=True):
         read.append(load(path))
         if read[-1].attrs.get("scene_digest") != digest:
             raise BrokenResult(f"{path} {OTHER_SCENE}; delete it and run again")
-    save(fig11.draw(read, draws), *outputs)
+    save(name_temperature(fig11.draw(read, draws), temperature), *outputs)

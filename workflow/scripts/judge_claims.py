@@ -13,6 +13,7 @@ from rubfric.results.campaign import read
 from rubfric.results.provenance import OTHER_SCENE
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table
+from rubfric.results.temperature import at_temperature, rows_at
 from rubfric.results.whole_road import WholeRoad
 from rubfric.studies.paper.judge import Criteria, judge
 from rubfric.studies.paper.observation import WORDS as OBSERVED
@@ -31,6 +32,7 @@ def main(
     roads: dict[str, dict[str, Any]],
     criteria: dict[str, Any],
     about: dict[str, str],
+    temperature: float | None,
 ) -> None:
     """Write the verdicts, the evidence and the page.
 
@@ -52,10 +54,12 @@ def main(
         The parameters of ``Criteria``.
     about : dict of str to str
         Every reading in words.
+    temperature : float or None
+        At which the claims are judged, degC, where there are any.
     """
     claims, evidence = judge(
-        read(campaign, digests["campaign"]),
-        read_table(totals, WORDS),
+        at_temperature(read(campaign, digests["campaign"]), temperature),
+        rows_at(read_table(totals, WORDS), temperature),
         *(map(dataset.read, paths, digests[name]) for name, paths in (("profiles", profiles), ("marches", marches))),
         read_table(points[0], ("run", "kind", "source")) if points else None,
         {

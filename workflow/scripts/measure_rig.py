@@ -4,19 +4,23 @@ from rubfric.config.rig import RigChoice
 from rubfric.results.friction_map import FrictionMap
 from rubfric.results.scales import WORDS
 from rubfric.results.tables import read_table, write_table
+from rubfric.results.temperature import rows_at
 from rubfric.rig.reduction import point_table, reduce_files, rejected_table
 from rubfric.rig.settings import read_settings
 from rubfric.rig.summary import summary
 from rubfric.rig.virtual import measure, parts_of, plan, targets
 
 
-def main(points: str, rejected: str, totals: str, rig: dict[str, object]) -> None:
-    """Write the CSV tables ``points`` and ``rejected``; ``rig`` is the config's, ``totals`` the table of totals."""
+def main(points: str, rejected: str, totals: str, rig: dict[str, object], temperature: float | None) -> None:
+    """Write the CSV tables ``points`` and ``rejected``; ``rig`` is the config's, ``totals`` the table of totals.
+
+    The virtual rig runs at a ``temperature`` (degC) of these; of measured runs none is known.
+    """
     choice = RigChoice.read("rig", rig)
     if choice.data:
         runs = reduce_files(choice.data, read_settings(choice.columns))
     else:
-        runs = virtual_runs(choice, FrictionMap.from_totals(read_table(totals, WORDS)))
+        runs = virtual_runs(choice, FrictionMap.from_totals(rows_at(read_table(totals, WORDS), temperature)))
     write_table(point_table(runs), points)
     write_table(rejected_table(runs), rejected)
     print(summary(runs))

@@ -7,7 +7,7 @@ from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
 from rubfric.results.scales import WAYS
 from rubfric.results.tables import write_table
-from rubfric.results.totals import total_table
+from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
 
 
@@ -17,7 +17,7 @@ def main(
     campaign: str,
     whole: list[str],
     collected: list[str],
-    road: dict[str, Any],
+    roads: dict[float | None, dict[str, Any]],
     title: str,
 ) -> None:
     """Write the friction of each scale and of the whole road, by all ways.
@@ -32,16 +32,17 @@ def main(
         Path of the collection of the whole road's scenes (netCDF), or nothing.
     collected : list of str
         What these collections are known by.
-    road : dict
-        The parameters of ``WholeRoad``.
+    roads : dict
+        The parameters of ``WholeRoad`` by temperature, degC; under None for a rubber as it is given.
     title : str
         Of the campaign.
     """
-    about = WholeRoad.from_parameters(road)
-    table = total_table(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
+    about = {one: WholeRoad.from_parameters(road) for one, road in roads.items()}
+    table = total_tables(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
+    aspect = next(iter(about.values())).aspect
     write_table(table, output)
     words = (
-        f"Friction of every scale and of the whole road, for blocks {about.aspect:g} times as high as the coarsest "
+        f"Friction of every scale and of the whole road, for blocks {aspect:g} times as high as the coarsest "
         "wave is long. The total is that of the column way: direct is all scales at once, sum the paper's sum over "
         "the scales, corrected that sum times what coupling does in small strain, cascade a cascade of pressures from "
         "scale to scale, persson Persson's theory. Its error is absolute and has three parts: numerics; coupling, by "

@@ -7,7 +7,8 @@ would say in small strain, to a percent.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -25,6 +26,8 @@ from rubfric.rubber.material import Material
 _NODES, _FEWEST, _MOST = 32, 64, 16384
 # On a whole road: nodes along the finest wave and in contact that are enough, and most nodes of all.
 _PER_WAVE, _TOUCHING = 16, 128
+# By how much friction from pressures on slopes may differ from the energy that the layer dissipates, relative.
+_AGREEMENT = 0.04
 # The first guess of the contact: that of an elastic half-space, this much wider.
 _FIRST_GUESS = 1.2
 
@@ -92,9 +95,7 @@ def load_sine(layer: Layer, road: SineScale, pressure: float) -> Loaded:
     NotConverged
         As ``solve_contact`` does.
     """
-    share = float(westergaard_contact_fraction(pressure / layer.filling(road)[0]))
-    nodes = _power(min(max(_NODES / share, _FEWEST), _MOST))
-    return _loaded(road, _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share)), pressure)
+    return _loaded(layer, road, _on_sine(layer, road, pressure), pressure)
 
 
 def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
@@ -114,6 +115,47 @@ def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
     NotConverged
         As ``solve_contact`` does.
     """
+    return _loaded(layer, road, _on_road(layer, road, pressure), pressure)
+
+
+def sample_friction(layer: Layer, samples: Sequence[Material], road: Road, pressure: float) -> Real:
+    """Return friction coefficients of a layer, and of the same with other rubbers that differ little from its own.
+
+    All are found on the same surface nodes, so that their differences are those of the rubbers.
+
+    Parameters
+    ----------
+    layer : Layer
+    samples : sequence of Material
+    road : Road
+    pressure : float
+        Nominal, MPa.
+
+    Returns
+    -------
+    ndarray, shape (1 + samples,)
+        The layer's own first.
+
+    Raises
+    ------
+    NotConverged
+        As ``solve_contact`` does.
+    """
+    first = _on_sine(layer, road, pressure) if isinstance(road, SineScale) else _on_road(layer, road, pressure)
+    nodes, start = len(first.pressure), first.touching
+    others = [replace(layer, material=each) for each in samples]
+    contacts = [first, *(_slide(other, road, pressure, nodes, start) for other in others)]
+    found = zip([layer, *others], contacts, strict=True)
+    return np.array([_loaded(other, road, contact, pressure).friction for other, contact in found])
+
+
+def _on_sine(layer: Layer, road: SineScale, pressure: float) -> Contact:
+    share = float(westergaard_contact_fraction(pressure / layer.filling(road)[0]))
+    nodes = _power(min(max(_NODES / share, _FEWEST), _MOST))
+    return _slide(layer, road, pressure, nodes, _crests(road, nodes, _FIRST_GUESS * share))
+
+
+def _on_road(layer: Layer, road: Road, pressure: float) -> Contact:
     least = _power(_PER_WAVE * finest_waves(road))
     share = contact_fractions(layer.material, road, layer.velocity, pressure, layer.height, layer.plane)[-1]
     nodes = least // 2
@@ -122,7 +164,7 @@ def load_road(layer: Layer, road: WaveRoad, pressure: float) -> Loaded:
         found = _slide(layer, road, pressure, nodes, start)
         touching = found.touching
         if nodes >= least and (np.count_nonzero(touching) >= _TOUCHING or nodes >= max(_MOST, least)):
-            return _loaded(road, found, pressure)
+            return found
         start, nodes = np.repeat(touching | np.roll(touching, 1) | np.roll(touching, -1), 2), 2 * nodes
 
 
@@ -135,10 +177,20 @@ def _slide(layer: Layer, road: Road, pressure: float, nodes: int, start: Flags) 
     return full_contact(spectrum, profile, pressure) or solve_contact(spectrum, profile, pressure, start, label)
 
 
-def _loaded(road: Road, contact: Contact, pressure: float) -> Loaded:
+def _loaded(layer: Layer, road: Road, contact: Contact, pressure: float) -> Loaded:
+    """Return what a contact says; its friction is that of pressures on slopes, within bounds of the energy dissipated.
+
+    Rubber that is nearly relaxed dissipates so little that the former is the difference of large numbers: round a patch
+    of some nodes it may be anything, while the energy, mu p = -sum of k |p_k|² Im C(k) over all k, has no such error.
+    """
     nodes, touching = len(contact.pressure), contact.touching
     slope = road.slope(road.period / nodes * np.arange(nodes))
-    friction = float(np.mean(contact.pressure * slope)) / pressure
+    by_slope = float(np.mean(contact.pressure * slope)) / pressure
+    wavenumber = 2.0 * np.pi / road.period * np.arange(1, nodes // 2 + 1)
+    twice = np.where(np.arange(1, nodes // 2 + 1) == nodes / 2, 1.0, 2.0)
+    power = twice * wavenumber * np.abs(np.fft.rfft(contact.pressure)[1:] / nodes) ** 2
+    by_energy = float(-np.sum(power * layer.compliance(wavenumber).imag)) / pressure
+    friction = float(np.clip(by_slope, (1.0 - _AGREEMENT) * by_energy, (1.0 + _AGREEMENT) * by_energy))
     return Loaded(friction, np.sort(contact.pressure[touching]), float(np.mean(touching)))
 
 

@@ -36,6 +36,7 @@ function pointWords(data, place, pressure, speed) {
     }
   } else {
     const scene = data.scenes[place][pressure][speed];
+    if (scene.rubberError > 0) lines.push(`rubber's data: ± ${roundedUp(scene.rubberError).text}`);
     lines.push(`contact ${percent(scene.contact)}`, scene.finite ? "finite strain" : "small strain");
   }
   return lines.join("<br>");

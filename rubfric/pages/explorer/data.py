@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
 from rubfric.pages.explorer.pictures import WIDER, Store, is_whole, picture
 from rubfric.pages.explorer.totals import WHOLE, about, by_way, on_axes, reasons
-from rubfric.results.selection import check_variables, find_peak, position
+from rubfric.results.selection import RUBBER_ERROR, check_variables, find_peak, position
 
 _FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
 # Numbers of every scene: variable, name in the page.
@@ -33,6 +33,8 @@ _SCALARS = {
     "columns": "columns",
     "rows": "rows",
 }
+# And of a measured rubber.
+_RUBBER = {RUBBER_ERROR: "rubberError"}
 _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
 # Most nodes of a picture, over the height and along a wavelength, and the fewest; of how many pictures the most are
 # kept, so that the page stays below 10 MB.
@@ -48,6 +50,7 @@ def payload(
     aspect: float,
     road: str,
     whole: xr.Dataset | None = None,
+    share: float = 1.0,
 ) -> dict[str, Any]:
     """Return all that the page shows.
 
@@ -66,6 +69,8 @@ def payload(
         Name of the road.
     whole : xarray.Dataset, optional
         The collection of the scenes of the whole road, results of which may be among ``results``.
+    share : float
+        Of the room for pictures, where several payloads share a page.
 
     Returns
     -------
@@ -92,7 +97,7 @@ def payload(
         curves[WHOLE] = _curve(placed[_FRICTION].values, placed[_ERROR].values)
         scenes[WHOLE] = _cells(placed)
         found["refusals"] = reasons(whole, axes)
-    packed, energies, pictured = _pictures(results, axes, scenes, aspect)
+    packed, energies, pictured = _pictures(results, axes, scenes, aspect, share * _ROOM)
     if whole is not None:
         found[WHOLE] = about(whole, pictured)
     return {
@@ -110,10 +115,27 @@ def payload(
     }
 
 
+def together(payloads: Mapping[float | None, dict[str, Any]], shown: float | None) -> dict[str, Any]:
+    """Return the payload of a page that shows one of several temperatures.
+
+    Parameters
+    ----------
+    payloads : mapping of float to dict
+        By temperature, degC; one under None stays as it is.
+    shown : float or None
+        The temperature with which the page begins.
+    """
+    if None in payloads:
+        return payloads[None]
+    return {"temperatures": list(payloads), "shown": shown, "pages": list(payloads.values())}
+
+
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     """Return the campaign at one ratio, over scale, pressure and speed, without those of which nothing was run."""
     check_variables(campaign, *_SCALARS, "amplitude", "wavenumber")
-    grid = campaign[[*_SCALARS, "amplitude", "wavenumber"]].isel(aspect=position(campaign, "aspect", aspect), drop=True)
+    grid = campaign[[*_numbers(campaign), "amplitude", "wavenumber"]].isel(
+        aspect=position(campaign, "aspect", aspect), drop=True
+    )
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
@@ -158,15 +180,20 @@ def _scenes(grid: xr.Dataset) -> dict[str, list[list[dict[str, Any] | None]]]:
 
 
 def _cells(field: xr.Dataset) -> list[list[dict[str, Any] | None]]:
-    names = list(_SCALARS.values())
+    numbers = _numbers(field)
     return [
-        [dict(zip(names, _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
-        for row in np.stack([field[name].values for name in _SCALARS], axis=-1)
+        [dict(zip(numbers.values(), _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
+        for row in np.stack([field[name].values for name in numbers], axis=-1)
     ]
 
 
+def _numbers(field: xr.Dataset) -> dict[str, str]:
+    """Return the numbers of every scene that there are: variable, name in the page."""
+    return _SCALARS | {name: shown for name, shown in _RUBBER.items() if name in field}
+
+
 def _pictures(
-    results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float
+    results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float, room: float
 ) -> tuple[str, list[float], xr.Dataset | None]:
     """Add picture, reason and warnings of every result to its scene; return the packed numbers and their energies.
 
@@ -176,7 +203,7 @@ def _pictures(
     store, low, high, whole = Store(), [], [], None
     weights = {name: WIDER if name == WHOLE else 1 for name in scenes}
     count = sum(weights[name] * (scene is not None) for name, rows in scenes.items() for row in rows for scene in row)
-    share = min(1.0, math.sqrt(_ROOM / count))
+    share = min(1.0, math.sqrt(room / count))
     most = [max(fewest, int(share * size)) for size, fewest in zip(_MOST, _FEWEST, strict=True)]
     for result in results:
         scene = _found(result, axes, scenes, aspect)

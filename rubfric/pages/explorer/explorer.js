@@ -1,7 +1,7 @@
 "use strict";
 // The page: what is chosen, the controls that choose it, and everything drawn again when it changes.
 
-const data = JSON.parse(byId("payload").textContent);
+const data = held.pages ? held.pages[warmth] : held;
 const severalScales = "total" in data.curves;
 const places = [...(severalScales ? ["total"] : []), ...(data.whole ? ["whole"] : []), ...data.scales.map(({ number }) => String(number))];
 const colours = shades(data.colours.energy);
@@ -35,9 +35,9 @@ function readAddress() {
   if (speed >= 0) chosen.speed = speed;
 }
 
-function address() {
+function address(warm = temperatures[warmth]) {
   const { place, view, pressure, speed } = chosen;
-  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}`;
+  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${addressed(warm)}`;
 }
 
 /** Choose, within what there is, and draw; many choices in one frame are drawn once. */
@@ -92,7 +92,7 @@ function makeControls() {
     const [axis, step] = steps[event.key];
     choose({ [axis]: chosen[axis] + step });
   });
-  window.addEventListener("hashchange", () => { readAddress(); choose({}); });
+  window.addEventListener("hashchange", () => { readAddress(); if (!otherTemperature()) choose({}); });
   let width = window.innerWidth;
   window.addEventListener("resize", () => { if (window.innerWidth !== width) { width = window.innerWidth; choose({}); } });
 }
@@ -118,9 +118,9 @@ function showAbout() {
   const { plane, kinematics, accuracy, aspect, source, references } = data.about;
   const scales = data.scales.length === 1 ? "one scale" : `${data.scales.length} scales`;
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
-  byId("about").textContent = `Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
+  byId("about").textContent = `${rubberAt()}Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
-  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. It covers neither the data of the rubber nor the choice of its law.`;
+  byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. ${limitsWords(data)}`;
 }
 
 function showWords() {
@@ -245,8 +245,7 @@ async function begin() {
   const first = highestScene(places[0]);
   Object.assign(chosen, { pressure: first.pressure, speed: first.speed });
   readAddress();
-  showAbout();
-  makeControls();
+  for (const make of [showAbout, makeControls, makeTemperatures]) make();
   document.querySelector("main").hidden = false;
   try {
     numbers = await unpack(data.pictures);

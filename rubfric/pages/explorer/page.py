@@ -12,8 +12,8 @@ from rubfric.pages.render import assets, render
 
 
 def page(payload: dict[str, Any]) -> str:
-    """Return the page that shows a payload (``rubfric.pages.explorer.data.payload``)."""
-    about = payload["about"]
+    """Return the page that shows a payload (of ``rubfric.pages.explorer.data``), or one of several temperatures."""
+    about = payload.get("pages", [payload])[0]["about"]
     return render(
         "explorer/template.html",
         title=f"Friction of rubber {about['rubber']} on road {about['road']}",

@@ -18,6 +18,7 @@ from rubfric.results.selection import DRAWS, refusals
 WHOLE = "whole"
 WAYS = ("sum", "corrected", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
+_RUBBER_PART = "friction_rubber_error"  # of a measured rubber
 # Points among which the lowest and the highest of the road are found.
 _POINTS = 16384
 
@@ -42,6 +43,7 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
     """
     pairs = {way: (f"friction_{way}", f"friction_{way}_error") for way in WAYS}
     parts = {part: f"friction_{part}_error" for part in _PARTS}
+    parts |= {"rubber": _RUBBER_PART} if _RUBBER_PART in table else {}
     numbers = [name for pair in pairs.values() for name in pair] + list(TOTAL)
     check_columns(table, "table of totals", ("way",), [*AXES, *parts.values()], numbers)
     columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])

@@ -24,7 +24,7 @@ function coversTotal(data, { pressure, speed }) {
   const share = (name, words) => (of(name) ? [`${words} (${rounded(of(name), 2)})`] : []);
   const covered = [
     ...share("numerical", "mesh and solver"), ...share("coupling", "what it may miss of the coupling of the scales"),
-    ...share("road", "so few random roads"),
+    ...share("road", "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
   ];
   const about = taken === "direct" ? `${WAY_NAMES.direct} ${roadWords(data)}` : WAY_NAMES[taken];
   const said = taken === "direct" ? "" : ` ${sentence(note[pressure][speed] ?? "")}`;
@@ -35,7 +35,15 @@ function coversTotal(data, { pressure, speed }) {
 function coversScene(data, { place, pressure, speed }, scene) {
   const reason = place === "whole" && data.refusals[pressure][speed];
   if (!scene) return reason ? sentence(reason) : "";
-  return `${place === "whole" ? sentence(`all scales at once ${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver.`;
+  return `${place === "whole" ? sentence(`all scales at once ${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver.` +
+    (scene.rubberError > 0 ? ` The rubber's data leave ± ${roundedUp(scene.rubberError).text} beside that.` : "");
+}
+
+/** What no error covers. */
+function limitsWords(data) {
+  return data.totals?.parts.rubber
+    ? "That of the total covers the data of the rubber, which are said beside that of a scene; not the choice of its law."
+    : "It covers neither the data of the rubber nor the choice of its law.";
 }
 
 /** The sum of the scales at the chosen pressure, for comparison with the total. */

@@ -49,7 +49,7 @@ def test_table_1_comes_back_from_its_own_measurements(rng: np.random.Generator) 
     assert (material.moduli, material.bulk) == ("long_term", "proportional")
     frequency = np.geomspace(1.0, 1e9, 20)
     young = 2.0 * (1.0 + 0.49) * material.complex_shear_modulus(frequency)
-    assert np.stack(found.moduli_at(frequency)) == pytest.approx(np.stack([young.real, young.imag]), rel=1e-9)
+    assert np.stack(found.moduli_at(frequency)) == pytest.approx(np.stack([young.real, young.imag]), rel=1e-5)
     # The rubber at another temperature is that which was measured there.
     cold = shifted(found, material).at(-25.0)
     storage, loss = truth.at(np.full(13, -25.0), 2.0 * np.pi * HERTZ)

@@ -49,6 +49,23 @@ def test_peak_of_every_line_is_marked(make_campaign: Maker) -> None:
         assert marks == [(speed, value) for value in highest]
 
 
+def test_bands_hold_what_the_data_of_a_measured_rubber_leave(
+    make_campaign: Maker, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    plain = fig6.draw(campaign, 0.75)
+    campaign["friction_coefficient_rubber_error"] = 0.1 * campaign["friction_coefficient"]
+    campaign["friction_beyond_window"] = (campaign["friction_coefficient"] * 0.0).where(campaign["velocity"] < 1e3, 0.5)
+    figure = fig6.draw(campaign, 0.75)
+    assert any("the rubber's data alone\nat most 10" in text for text in words(figure))
+    assert not any("rubber" in text or "beyond" in text for text in words(plain))
+    assert sum("beyond the measured" in text for text in words(figure)) == 1
+    crosses = [line for line in figure.axes[0].get_lines() if line.get_gid() == "beyond"]
+    assert [list(cross.get_xdata()) for cross in crosses] == [[1e3, 1e4]] * 3
+    heights = [bands(one.axes[0])[0].get_paths()[0].get_extents().height for one in (plain, figure)]
+    assert heights[0] < heights[1]
+
+
 def test_every_line_has_its_band(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
     campaign = make_campaign()
     campaign["friction_coefficient_error"].loc[{"scale": 2, "pressure": 1.0, "velocity": 100.0, "aspect": 0.75}] = 0.5

@@ -17,7 +17,7 @@ from rubfric.config.campaign import load
 from rubfric.errors import BrokenResult, NotConverged
 from rubfric.mechanics.theory.coupling import Coupling
 from rubfric.results.scales import WAYS
-from rubfric.results.selection import NOT_NEEDED
+from rubfric.results.selection import NOT_NEEDED, RUBBER_ERROR
 from rubfric.results.totals import total_table
 from rubfric.results.whole_road import WholeRoad
 from rubfric.road.waves import WaveRoad
@@ -80,6 +80,24 @@ def test_direct_total_has_no_coupling_error(campaign: xr.Dataset) -> None:
     assert row["friction_coupling_error"] == 0.0
     assert np.isnan(row["friction_road_error"])
     assert (row["way"], row["note"], row["refused"]) == ("direct", "one road with these phases", 0)
+
+
+def test_data_of_a_measured_rubber_are_a_part_of_the_error(campaign: xr.Dataset) -> None:
+    def measured(found: xr.Dataset, error: float) -> xr.Dataset:
+        return found.assign({RUBBER_ERROR: xr.full_like(found["friction_coefficient"], error)})
+
+    whole = measured(gathered((0,), 0.3), 0.02)
+    table = total_table(measured(campaign, 0.01), whole, road("direct"))
+    assert list(table.columns)[5:9] == [
+        f"friction_{part}_error" for part in ("numerical", "coupling", "road", "rubber")
+    ]
+    row = at(table, 1.0, 5.0)
+    assert (row["friction_rubber_error"], row["friction_total_error"]) == (0.02, pytest.approx(0.023))
+    row = at(total_table(measured(campaign, 0.01), None, road("corrected")), 1.0, 5.0)
+    assert row["friction_rubber_error"] == pytest.approx(0.02 * SHARE)
+    assert row["friction_total_error"] == pytest.approx(
+        row["friction_numerical_error"] + row["friction_coupling_error"] + row["friction_rubber_error"]
+    )
 
 
 @pytest.mark.parametrize(("way", "share"), [("sum", 1.0), ("corrected", SHARE), ("cascade", 0.9), ("persson", 0.7)])

@@ -64,6 +64,8 @@ def test_highest_friction_has_its_error_place_and_way(tmp_path: Path) -> None:
         f"{HEAD}1,0.5,0.31,0.002,0,direct\n10000,5,1.0411,0.00754,0,sum\n100,5,,,0,direct\n10,5,0.2,,0,direct\n"
     )
     assert highest(table) == "at most 1.04 ± 0.008, at 10000 mm/s and 5 MPa (sum over the scales)"
+    table.write_text(f"temperature_degC,{HEAD}-5,1,0.5,0.31,0.002,0,direct\n")
+    assert highest(table) == "at most 0.31 ± 0.002, at 1 mm/s and 0.5 MPa, -5 degC (all scales at once)"
     table.write_text(HEAD)
     assert highest(table) == ""
     table.unlink()

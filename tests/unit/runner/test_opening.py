@@ -30,6 +30,22 @@ def test_paper_is_understood() -> None:
     ]
 
 
+def test_moduli_are_said_at_each_temperature() -> None:
+    rubber = {"shift": {"law": "wlf", "c1": 8.0, "c2": 100.0, "reference_temperature": 20.0}}
+    temperatures = [float(one) for one in range(0, 80, 10)]
+    grid = {"velocities": [1, 10], "pressures": [0.5], "temperatures": temperatures}
+    lines = understood(load({"rubbers": {"zhou2019": rubber}, "grid": grid}), own=True)
+    assert "the road excites the rubber at 35 to 3e+03 rad/s" in lines
+    assert [line.split(" E' ")[0] for line in lines if line.startswith("at ")] == [
+        "at 0 degC (a_T = 100)",
+        "at 20 degC (a_T = 1)",
+        "at 40 degC (a_T = 0.0464)",
+        "at 50 degC (a_T = 0.0143)",
+        "at 70 degC (a_T = 0.00215)",
+    ]
+    assert "64 scenes: 4 scales at 2 speeds and 1 load at 8 temperatures, 16 of the whole road" in lines
+
+
 def test_own_campaign_says_what_is_off_and_what_is_unlikely(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(OWN)
     lines = understood(load(CONFIG, tmp_path / "mine.yaml"), own=True)

@@ -20,7 +20,7 @@ MODULES = [
     "rubfric.simulation",
     "rubfric.results.campaign",
     "rubfric.results.tables",
-    "rubfric.config.campaign",
+    "rubfric.config.rig",
     "rubfric.results.summary",
 ]
 

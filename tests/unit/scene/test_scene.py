@@ -198,5 +198,17 @@ def test_parameters_are_the_callers_own(paper_scene: SceneMaker) -> None:
     parameters["numerics"]["accuracy"] = 1.0
     assert scene.parameters() != parameters
     assert scene.digest == digest
-    assert list(parameters) == [field.name for field in fields(Scene)]
-    assert json.loads(json.dumps(asdict(scene))) == scene.parameters()
+    assert [*parameters, "temperature", "measured"] == [field.name for field in fields(Scene)]
+    assert json.loads(json.dumps(asdict(scene))) == scene.parameters() | {"temperature": None, "measured": None}
+
+
+def test_temperature_is_part_of_name_and_digest_where_there_is_one(paper_scene: SceneMaker) -> None:
+    scene = paper_scene(1.0, 5.0)
+    warm = replace(scene, temperature=20.0)
+    assert warm.name == "scale1_v1_p5_T20_aspect0.75_strain"
+    assert replace(scene, temperature=-2.5).name == "scale1_v1_p5_T-2.5_aspect0.75_strain"
+    assert warm.digest != scene.digest
+    for one in (scene, warm):
+        assert Scene.from_parameters(json.loads(json.dumps(one.parameters()))) == one
+    with pytest.raises(InvalidInput, match="temperature is -273 degC, but must be at least -200"):
+        replace(scene, temperature=-273.0)

@@ -77,3 +77,12 @@ def test_every_contact_has_nodes_enough(paper_rubber: Material) -> None:
     light = load_road(Layer(paper_rubber, 1e4, HEIGHT, "strain"), ROAD, 0.5)
     assert len(light.pressure) >= 64
     assert light.friction == pytest.approx(0.1108, rel=0.02)
+
+
+@pytest.mark.parametrize("pressure", [0.2, 0.5])
+def test_friction_of_nearly_relaxed_rubber_is_proportional_to_speed(paper_rubber: Material, pressure: float) -> None:
+    # So slow that the contact is that of the relaxed rubber; pressures on slopes alone would give three times as much.
+    found = [load_road(Layer(paper_rubber, v, HEIGHT, "stress"), ROAD, pressure).friction for v in (1e-4, 2e-4, 4e-4)]
+    assert 0.0 < found[0] < 1e-3
+    assert found[1] == pytest.approx(2.0 * found[0], rel=0.1)
+    assert found[2] == pytest.approx(4.0 * found[0], rel=0.1)

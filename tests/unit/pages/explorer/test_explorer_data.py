@@ -37,6 +37,17 @@ def test_curves_are_those_of_the_campaign(make_campaign: CampaignMaker) -> None:
     assert found["about"]["accuracy"] == 0.01
 
 
+def test_data_of_a_measured_rubber_are_beside_every_error(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign)
+    assert "rubber" not in payload(campaign, table, [], 0.75, "road")["totals"]["parts"]
+    campaign["friction_coefficient_rubber_error"] = 0.1 * campaign["friction_coefficient"]
+    found = payload(campaign, table.assign(friction_rubber_error=0.25), [], 0.75, "road")
+    assert found["totals"]["parts"]["rubber"] == [[0.25] * 3] * 2
+    scene = found["scenes"]["2"][1][2]
+    assert scene["rubberError"] == pytest.approx(0.1 * scene["friction"])
+
+
 def test_every_scene_has_its_numbers_reason_and_warnings(
     make_campaign: CampaignMaker, make_result: ResultMaker
 ) -> None:

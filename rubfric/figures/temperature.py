@@ -1,0 +1,25 @@
+"""What a figure of a campaign of several temperatures says of the one that it shows."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from rubfric.figures import panels, style
+from rubfric.results.selection import written
+
+
+def name_temperature(figure: Figure, temperature: float | None) -> Figure:
+    """Return a figure with its temperature in the note below the panels; as it is where there is none.
+
+    A figure that lays out its own panels has it in its own note.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    temperature : float or None
+        degC.
+    """
+    if temperature is not None and figure.get_layout_engine() is not None:
+        with style.applied():
+            panels.write_note(figure, [*figure.get_supxlabel().splitlines(), f"Rubber at {written(temperature)} °C."])
+    return figure
