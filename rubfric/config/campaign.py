@@ -16,6 +16,7 @@ from rubfric import checks
 from rubfric.config.default import over_default
 from rubfric.config.fitting import fitted_rubber
 from rubfric.config.measured import MeasuredRubber
+from rubfric.config.measured_road import MeasuredRoad, Survey, surveyed
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -52,6 +53,16 @@ from rubfric.scene.scene import ALL, Scene
 def _span(values: tuple[float, ...]) -> str:
     """Return the first and the last of ascending numbers, or the only one."""
     return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
+
+
+def _road_of(name: str, entry: Any) -> tuple[Survey | None, tuple[SineScale, ...], tuple[float, ...]]:
+    """Return what is made of a measured profile, if the road is one, and the scales and phases of the road."""
+    if isinstance(entry, MeasuredRoad):
+        survey = surveyed(name, entry)
+        return survey, tuple(SineScale(*scale) for scale in survey.scales), (0.0,) * len(survey.scales)
+    scales = [dict(scale) for scale in entry]
+    sines = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
+    return None, sines, tuple(scale["phase"] for scale in scales)
 
 
 @dataclass(frozen=True)
@@ -94,6 +105,8 @@ class Campaign:
         Every preset, by name.
     fitted : FittedRubber or None
         The rubber where it was fitted to measured moduli, with its shift factors and what the measurement leaves open.
+    survey : Survey or None
+        The road where its profile was measured.
     shift : Shift or None
         The rubber's shift factors.
     temperatures : tuple of float
@@ -119,12 +132,13 @@ class Campaign:
     numerics: Numerics
     presets: dict[str, Numerics]
     fitted: FittedRubber | None = None
+    survey: Survey | None = None
     shift: Shift | None = None
     temperatures: tuple[float, ...] = ()
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
-        """Check a config whole and read it; a rubber that was measured is fitted.
+        """Check a config whole and read it; a rubber that was measured is fitted, a road analysed.
 
         Parameters
         ----------
@@ -140,8 +154,7 @@ class Campaign:
         given = read_whole(config)
         entry = given.rubbers[given.rubber]
         fitted = fitted_rubber(given.rubber, entry, kept) if isinstance(entry, MeasuredRubber) else None
-        scales = [dict(scale) for scale in given.roads[given.road]]
-        road = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
+        survey, road, phases = _road_of(given.road, given.roads[given.road])
         numerics, presets = numerics_of(given)
         material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(given.rubber, entry.given())
         figures, temperatures = figures_of(given.figures, given.grid), given.grid.temperatures
@@ -152,7 +165,7 @@ class Campaign:
             material=material,
             road_name=given.road,
             road=road,
-            phases=tuple(scale["phase"] for scale in scales),
+            phases=phases,
             plane=given.plane,
             kinematics=given.kinematics,
             multiscale=Multiscale(given.multiscale, given.multiscale_preset, given.phases.draws, given.phases.seed),
@@ -167,6 +180,7 @@ class Campaign:
             numerics=numerics,
             presets=presets,
             fitted=fitted,
+            survey=survey,
             shift=shift,
             temperatures=temperatures,
         )
