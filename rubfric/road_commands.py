@@ -19,7 +19,8 @@ from rubfric.rules import Integer, Number, Rule, rules
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import KINEMATICS, Scene
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # heavy
+    from rubfric.profile.analysis import Analysis
     from rubfric.profile.cleaning import Cleaned
 
 _READ = """\
@@ -169,21 +170,38 @@ def _read(options: argparse.Namespace) -> int:
     output = options.output or Path(f"road_{name}.yaml")
     check_output(output, "road", (_OURS,))
     _check(options, (*_READING, "cutoff", "scales"))
-    from rubfric.pages.render import sentence, write_page
-    from rubfric.pages.road import lost, results, road_page
     from rubfric.profile.analysis import analyse
 
-    cleaned = _cleaned(options)
-    found = analyse(cleaned, options.window, options.cutoff, options.scales, options.blend)
+    found = analyse(_cleaned(options), options.window, options.cutoff, options.scales, options.blend)
+    said = write_road(found, name, output, f"read from {options.file}")
+    print("\n".join([*said, "", f"Written to {output} and {output.with_suffix('.html')}"]))
+    return 0
+
+
+def write_road(found: Analysis, name: str, output: Path, how: str) -> list[str]:
+    """Write a measured road as a config of sines, with its page, and return what is to be said of it.
+
+    Parameters
+    ----------
+    found : Analysis
+    name : str
+        Of the road.
+    output : Path
+        The config; the page has the suffix ``.html`` instead.
+    how : str
+        How the road was found, for the config's first line.
+    """
+    from rubfric.pages.render import sentence, write_page
+    from rubfric.pages.road import lost, results, road_page
+
+    cleaned = found.cleaned
     rows = [f"{label}: {value}" for label, value in (*cleaned.removed, *results(found))]
     words = [sentence(each) for each in (*found.warnings(), *cleaned.measured.notes, lost(found))]
-    text = _yaml(name, options.file, [*rows, *words], found.sines)
+    text = _yaml(name, how, [*rows, *words], found.sines)
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
-    page = output.with_suffix(".html")
-    write_page(road_page(found, name, text), page)
-    print("\n".join([*rows, *words, "", f"Written to {output} and {page}"]))
-    return 0
+    write_page(road_page(found, name, text), output.with_suffix(".html"))
+    return [*rows, *words]
 
 
 def _slide(options: argparse.Namespace) -> int:
@@ -225,7 +243,7 @@ def _slide(options: argparse.Namespace) -> int:
     return 0
 
 
-def _yaml(name: str, path: str, lines: list[str], road: Any) -> str:
+def _yaml(name: str, how: str, lines: list[str], road: Any) -> str:
     """Return a config with one road, and comments above it."""
     scales = [
         {"amplitude": amplitude, "wavenumber": wavenumber}
@@ -235,5 +253,5 @@ def _yaml(name: str, path: str, lines: list[str], road: Any) -> str:
         {"road": name, "roads": {name: scales}}, sort_keys=False, default_flow_style=None, width=110
     )
     comments = "".join(f"# {line}\n" for line in lines)
-    head = f"{_OURS} read, from {path}. Lay it over config/config.yaml: snakemake --configfile FILE"
+    head = f"{_OURS}, {how}. Lay it over config/config.yaml: snakemake --configfile FILE"
     return f"{head}\n{comments}{dumped}"

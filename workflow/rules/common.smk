@@ -203,6 +203,7 @@ def made_for_a_config():
         ),
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
+        "road_read": ROAD_FILES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -229,6 +230,7 @@ def follow(workflow):
                 "figures/fig6.png",
                 "explorer.html",
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
+                *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
             )
         ],
         dry=lambda: workflow.dryrun,
