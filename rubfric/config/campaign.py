@@ -168,7 +168,13 @@ class Campaign:
             phases=phases,
             plane=given.plane,
             kinematics=given.kinematics,
-            multiscale=Multiscale(given.multiscale, given.multiscale_preset, given.phases.draws, given.phases.seed),
+            multiscale=Multiscale(
+                # The windows of a profile are what no model of its sines stands for.
+                "direct" if survey and survey.windows and given.multiscale == "auto" else given.multiscale,
+                given.multiscale_preset,
+                given.phases.draws,
+                given.phases.seed,
+            ),
             velocities=given.grid.velocities,
             pressures=given.grid.pressures,
             aspect=given.grid.aspect,
@@ -265,11 +271,16 @@ class Campaign:
 
     @cached_property
     def whole_roads(self) -> dict[str, WaveRoad]:
-        """The whole road as it is simulated: under no name, or its random phases under ``drawN/``, or nothing."""
+        """The whole road as it is simulated, or nothing.
+
+        Under no name; or random phases under ``drawN/``, or windows of a measured profile under ``windowN/``.
+        """
+        if self.survey and self.survey.windows and self.multiscale.simulated:
+            return {f"window{number}/": one for number, one in enumerate(self.survey.windows, 1)}
         return self.multiscale.roads(self.road_name, *self._waves)
 
     def whole_scenes(self) -> dict[str, Scene]:
-        """Return every scene of the whole road by name; with random phases, by ``drawN/`` and name."""
+        """Return every scene of the whole road by name; of several roads, by ``drawN/`` or ``windowN/`` and name."""
         grid = product(self.temperatures or (None,), self.velocities, self.pressures)
         preset = self.multiscale.preset
         scenes = [
@@ -277,6 +288,9 @@ class Campaign:
             for temperature, velocity, pressure in grid
             if self.whole_roads
         ]
+        if self.survey and self.survey.windows:
+            aspect = float(f"{self.survey.block_height / self.survey.windows[0].wavelength:.6g}")
+            scenes = [replace(scene, road=self.survey.windows[0], aspect=aspect) for scene in scenes]
         roads = self.whole_roads.items()
         return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
 
@@ -284,18 +298,22 @@ class Campaign:
         """Return what the total over the scales depends on besides results, as plain values.
 
         Those of ``rubfric.results.whole_road.WholeRoad``. Scales without a common period, of which no whole road is
-        simulated, are judged by the nearest that have one. Of several temperatures that of the figures counts.
+        simulated, are judged by the nearest that have one, windows of a profile by its sines. Of several temperatures
+        that of the figures counts.
         """
         shown = self.figures.temperature
-        roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]
-        return {
+        windows = len(self.survey.windows) if self.survey and self.multiscale.simulated else 0
+        roads = (() if windows else self.whole_roads.values()) or [WaveRoad.nearest(*self._waves)]
+        height = self.aspect * max(road.wavelength for road in roads)
+        more = {"windows": windows} if windows else {}
+        return more | {
             "way": self.multiscale.way,
             "accuracy": self.presets[self.multiscale.preset].accuracy,
             "material": asdict(self.material if shown is None else rubber_at(self.material, self.shift, shown)),
             "plane": self.plane,
             "kinematics": self.kinematics,
             "aspect": self.aspect,
-            "height": self.aspect * max(road.wavelength for road in roads),
+            "height": self.survey.block_height if self.survey and windows else height,
             "roads": [asdict(road) for road in roads],
         }
 

@@ -18,6 +18,7 @@ from rubfric.rules import HERE, Choice, Integer, Number, Rule
 
 if TYPE_CHECKING:  # heavy
     from rubfric.profile.analysis import Analysis
+    from rubfric.road.profile import ProfileRoad
 
 _FORMS = ("mean", "tilt", "bow")
 
@@ -51,6 +52,18 @@ class MeasuredRoad(Entry):
     cutoff: Annotated[
         float | None, Number("Shortest wavelength kept; without, the shortest to be trusted.", "mm", 1e-9, 1e6)
     ] = None
+    windows: Annotated[
+        int,
+        Integer(
+            "Number of windows of the profile itself that are slid over in place of the sines where the whole road is "
+            "simulated (multiscale direct or auto, which is direct then); its friction is their mean. 0 for the sines.",
+            0,
+            999,
+        ),
+    ] = 0
+    block_height: Annotated[
+        float, Number("Height of the block on a window, which is as wide as that.", "mm", 1e-9, 1e6)
+    ] = 8.0
     blend: Annotated[float, Number("Share of a window over which its ends are blended.", "", 0.0, 0.5)] = 0.1
     longest_gap: Annotated[float, Number("Gaps up to this length are bridged.", "mm", 0.0, 1e4)] = 5.0
     form: Annotated[str, Choice("What is subtracted: the mean, tilt, or tilt and bow.", _FORMS)] = "tilt"
@@ -97,6 +110,10 @@ class Survey:
         The file.
     scales : tuple of (float, float)
         Amplitude, mm, and wavenumber, 1/mm, of each sine, from coarse to fine.
+    windows : tuple of ProfileRoad
+        Those that are slid over in place of the sines.
+    block_height : float
+        Of the block on them, mm.
     words : str
         On the profile.
     warnings : tuple of str
@@ -104,6 +121,8 @@ class Survey:
 
     source: str
     scales: tuple[tuple[float, float], ...]
+    windows: tuple[ProfileRoad, ...]
+    block_height: float
     words: str
     warnings: tuple[str, ...]
 
@@ -167,12 +186,20 @@ def _surveyed(name: str, entry: MeasuredRoad, digest: str) -> Survey:
     """Return what is made of the file of this digest."""
     del digest
     found = analysed(entry)
+    if entry.windows > found.windows:
+        raise InvalidInput(
+            f"windows is {entry.windows}, but the profile has {found.windows} of {found.window:g} mm: take fewer, or "
+            "shorter ones with window"
+        )
     waves = found.sines
     profile = found.cleaned.profile
     kept = f"{found.cleaned.heights.std():.3g} mm rms, wavelengths from {found.cutoff:g} to {found.window:g} mm"
+    slid = f", and directly over {entry.windows} windows" if entry.windows else ""
     return Survey(
         entry.profile,
         tuple(zip(waves.amplitudes, waves.wavenumbers, strict=True)),
-        f"road {name} is {profile.length:.4g} mm of {entry.profile}: {kept} as {entry.scales} sines",
+        tuple(found.road(number) for number in range(1, entry.windows + 1)),
+        entry.block_height,
+        f"road {name} is {profile.length:.4g} mm of {entry.profile}: {kept} as {entry.scales} sines{slid}",
         tuple(found.warnings()),
     )

@@ -59,7 +59,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"((draw|window)\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
