@@ -201,8 +201,10 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_road(given: Any) -> str:
-    """Return the tag of a road that is measured, or of a list of scales."""
-    return f"{HERE}{'measured' if isinstance(given, (MeasuredRoad, Mapping)) else 'scales'}"
+    """Return the tag of a road that is measured, or of a list of scales, as which a single scale is taken too."""
+    single = isinstance(given, Mapping) and set(given) <= set(Scale.model_fields)
+    measured = isinstance(given, (MeasuredRoad, Mapping)) and not single
+    return f"{HERE}{'measured' if measured else 'scales'}"
 
 
 def _kind_of_rubber(given: Any) -> str:

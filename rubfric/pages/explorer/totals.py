@@ -95,7 +95,8 @@ def about(whole: xr.Dataset, result: xr.Dataset | None) -> dict[str, Any]:
         Of any scene on it that is pictured.
     """
     found: dict[str, Any] = {"number": WHOLE, "draws": int(whole[DRAWS].max()) if DRAWS in whole else 0}
-    found["windows"] = DRAWS in whole and WINDOWS in whole[DRAWS].attrs.get("long_name", "")
+    if found["draws"] and WINDOWS in whole[DRAWS].attrs.get("long_name", ""):
+        found["windows"] = True
     if result is None:
         return found | {"wavelength": 2.0 * math.pi / float(whole["wavenumber"].min()), "waves": []}
     road = profile(result)

@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from rubfric import load
+from rubfric import Scene, load
 from rubfric.config.overlay import placed, read_yaml
 from rubfric.errors import InvalidInput
+from rubfric.results.whole_road import WholeRoad
 from rubfric.road.sine import SineScale
 
 STREET = Path(__file__).resolve().parents[3] / "examples/own_road/street.csv"
@@ -55,6 +56,28 @@ def test_path_counts_from_the_folder_of_the_config(tmp_path: Path, monkeypatch: 
     assert read_yaml(config)["roads"] == {"street": {"profile": "mine/street.csv", "cutoff": 0.5}}
 
 
+def test_windows_of_the_profile_take_the_place_of_the_sines_where_the_whole_road_is_simulated() -> None:
+    campaign = load(measured(windows=3, cutoff=4, block_height=6, scales=2) | {"multiscale": "auto"})
+    assert campaign.survey is not None
+    assert list(campaign.whole_roads) == ["window1/", "window2/", "window3/"]
+    assert campaign.multiscale.way == "direct"
+    scenes = campaign.whole_scenes()
+    assert len(scenes) == 3 * len(campaign.velocities) * len(campaign.pressures)
+    assert all(scene.height == pytest.approx(6.0, rel=1e-5) for scene in scenes.values())
+    assert {scene.road for scene in scenes.values()} == set(campaign.survey.windows)
+    name, scene = next(iter(scenes.items()))
+    assert name == f"window1/{scene.name}"
+    # A file of results holds the road as its waves.
+    assert Scene.from_parameters(scene.parameters()).digest == scene.digest
+    # Models of the coupling are judged by the sines, under a block of that height.
+    road = WholeRoad.from_parameters(campaign.whole_parameters())
+    assert (road.count, len(road.roads), road.height) == (3, 1, 6.0)
+    sines = load(measured(scales=2, cutoff=4) | {"multiscale": "direct"})
+    assert list(sines.whole_roads) == [""]
+    assert "windows" not in sines.whole_parameters()
+    assert not load(measured(windows=3) | {"multiscale": "sum"}).whole_roads
+
+
 @pytest.mark.parametrize(
     ("entry", "words"),
     [
@@ -76,6 +99,7 @@ def test_path_counts_from_the_folder_of_the_config(tmp_path: Path, monkeypatch: 
         ),
         ({"profile": str(STREET), "cutof": 1.0}, r"unknown key 'cutof'; .*\(did you mean cutoff\?\)"),
         ({"profile": str(STREET), "scales": 0}, "roads.street.scales is 0, but must be a whole number of at least 1"),
+        ({"profile": str(STREET), "windows": 99}, "roads.street: windows is 99, but the profile has 12 of 40 mm"),
         ({"scales": 3}, "roads.street lacks the key 'profile'"),
         ([], r"roads.street is \[\], but must be a list of at least one scale"),
         ([{"amplitude": 1.0}], r"roads.street\[0\] lacks the key 'wavenumber'"),
