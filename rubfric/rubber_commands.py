@@ -14,11 +14,13 @@ from rubfric import checks
 from rubfric.config import campaign as campaigns
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, read_yaml
+from rubfric.config.temperature import rubber_at
 from rubfric.decks.deck import UNITS
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
 from rubfric.outputs import check_output, name_of
 from rubfric.rubber.material import Material
+from rubfric.rubber.shift import Shift, ShiftedRubber
 from rubfric.rules import Number
 
 if TYPE_CHECKING:  # heavy
@@ -102,6 +104,13 @@ def add_rubber(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> No
     write.add_argument("--rubber", metavar="NAME", help="one of the config's rubbers (default: the one chosen there)")
     write.add_argument(
         "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
+    )
+    write.add_argument(
+        "--temperature",
+        type=float,
+        metavar="T",
+        help="the rubber at this temperature, degC, by its shift factors (default: at their reference; an Abaqus deck "
+        "has those of WLF)",
     )
     write.add_argument("--output", "-o", type=Path, metavar="FILE", help="write the deck to this file")
     write.set_defaults(run=_write, configs=configs)
@@ -203,7 +212,7 @@ def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: s
         for label, value, band in results(found, bands)
     ]
     words = [sentence(each) for each in (*found.warnings, *found.data.notes)]
-    text = _yaml(material, how, [*rows, *_shift_lines(found.shift()), *words])
+    text = _yaml(material, how, [*rows, *words], found.shift())
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
     write_page(rubber_page(found, bands, material.name, text), output.with_suffix(".html"))
@@ -218,7 +227,7 @@ def _read(options: argparse.Namespace) -> int:
     deck = read_deck(options.deck, options.code, options.units, options.material)
     material = rubber(deck, name, options.youngs_modulus, options.poissons_ratio, options.static_modulus)
     notes = [f"{note[:1].upper()}{note[1:]}." for note in deck.notes]
-    text = _yaml(material, f"read from {options.deck}", [*notes, *_shift_lines(deck.shift)])
+    text = _yaml(material, f"read from {options.deck}", notes, deck.shift)
     _put(text, options.output)
     return 0
 
@@ -234,7 +243,14 @@ def _write(options: argparse.Namespace) -> int:
             hint = checks.suggestion(options.rubber, names)
             raise InvalidInput(f"--rubber is {options.rubber!r}, but the config has {', '.join(names)}{hint}")
         given = given | {"rubber": options.rubber}
-    _put(write_deck(options.code, campaigns.Campaign.from_config(given).material), options.output)
+    campaign = campaigns.Campaign.from_config(given)
+    shift, rubber = campaign.shift, campaign.material
+    if options.temperature is not None:
+        rubber = rubber_at(rubber, shift, options.temperature)
+    elif options.code == "abaqus" and shift and (shift.law, shift.vertical) == ("wlf", "none"):
+        _put(write_deck(options.code, ShiftedRubber(rubber, shift)), options.output)
+        return 0
+    _put(write_deck(options.code, rubber), options.output)
     return 0
 
 
@@ -268,20 +284,19 @@ def _columns(path: str | None) -> dict[str, Any]:
     return given
 
 
-def _shift_lines(shift: Any) -> list[str]:
+def _shift_entry(shift: Shift | None) -> dict[str, Any]:
+    """Return the key ``shift`` of a rubber in the config, without what its law has no use for."""
     if shift is None:
-        return []
-    names = [one.name for one in fields(shift)]
-    held = {name: value for name in names if (value := getattr(shift, name)) not in (None, ())}
-    shown = {name: list(value) if isinstance(value, tuple) else value for name, value in held.items()}
-    return yaml.safe_dump({"shift": shown}, sort_keys=False, default_flow_style=None, width=100).splitlines()
+        return {}
+    held = {one.name: value for one in fields(shift) if (value := getattr(shift, one.name)) not in (None, ())}
+    return {"shift": {name: list(value) if isinstance(value, tuple) else value for name, value in held.items()}}
 
 
-def _yaml(material: Material, how: str, lines: list[str]) -> str:
+def _yaml(material: Material, how: str, lines: list[str], shift: Shift | None) -> str:
     """Return a config with one rubber, and comments above it."""
     from rubfric.dma.entry import config_entry
 
-    body = {"rubber": material.name, "rubbers": {material.name: config_entry(material)}}
+    body = {"rubber": material.name, "rubbers": {material.name: config_entry(material) | _shift_entry(shift)}}
     comments = "".join(f"# {line}\n" for line in lines)
     dumped = yaml.safe_dump(body, sort_keys=False, default_flow_style=None, width=110)
     return f"{_OURS}, {how}. Lay it over config/config.yaml: snakemake --configfile FILE\n{comments}{dumped}"

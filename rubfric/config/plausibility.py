@@ -25,6 +25,8 @@ _CLIFF, _STEEP, _FLAT, _FINEST = 10.0, 3.0, 1e-3, 1e-4
 # degC: above it rubber decomposes. MPa: ten times what a tyre or a sealing ring meets. Loss factor of an elastic solid.
 # mm²: a square of 0.3 mm.
 _HOT, _HEAVY, _LOSSLESS, _SMALLEST_AREA = 250.0, 50.0, 1e-3, 0.1
+# What may be wrong where a rubber at a temperature loses nothing, or is elastic at the highest speeds.
+_OF_SHIFTED = ("are its shift factors right?", "its series has none so fast")
 
 
 def check_plausible(
@@ -68,9 +70,9 @@ def check_plausible(
         if one > _HOT
     ]
     rubbers = {f"{material.name} at {one:g} degC": each for one, each in (warm or {}).items()}
-    for name, rubber in (rubbers or {material.name: material}).items():
-        unlikely += _losses(name, rubber, road, velocities)
-    return unlikely
+    for name, rubber in rubbers.items():
+        unlikely += _losses(name, rubber, road, velocities, _OF_SHIFTED)
+    return unlikely if warm else [*unlikely, *_losses(material.name, material, road, velocities)]
 
 
 def check_area(key: str, area: float) -> float:
@@ -180,8 +182,14 @@ def _loads(material: Material, pressures: Sequence[float]) -> list[tuple[bool, s
     return found
 
 
-def _losses(name: str, material: Material, road: Sequence[SineScale], velocities: Sequence[float]) -> list[str]:
-    """Say where the rubber is elastic at the frequencies that the road excites."""
+def _losses(
+    name: str,
+    material: Material,
+    road: Sequence[SineScale],
+    velocities: Sequence[float],
+    why: tuple[str, str] = ("are relaxation_times in s?", "is it in ms?"),
+) -> list[str]:
+    """Say where the rubber is elastic at the frequencies that the road excites, and why that may be."""
     if not material.relaxation_times:
         return []
     low, high = min(scale.wavenumber for scale in road), max(scale.wavenumber for scale in road)
@@ -192,11 +200,11 @@ def _losses(name: str, material: Material, road: Sequence[SineScale], velocities
     if float((shear.imag / shear.real).max()) < _LOSSLESS:
         return [
             f"rubber {name} dissipates next to nothing, since {where}, and relaxes within {shortest:.2g} to "
-            f"{max(material.relaxation_times):.2g} s: are relaxation_times in s?"
+            f"{max(material.relaxation_times):.2g} s: {why[0]}"
         ]
     if shortest * frequencies[-1] > 10.0:
         return [
             f"rubber {name} is elastic at the highest speeds: {where}, and its shortest relaxation time is "
-            f"{shortest:.2g} s: is it in ms?"
+            f"{shortest:.2g} s: {why[1]}"
         ]
     return []

@@ -34,6 +34,12 @@ def test_from_measured_moduli_to_a_config_and_a_deck(dma: str, capsys: pytest.Ca
     assert "Written to rubber_mine.yaml and rubber_mine.html" in said
     material = load(CONFIG, "rubber_mine.yaml").material
     assert material.name == "mine"
+    warm = load(CONFIG, "rubber_mine.yaml", {"grid": {"temperatures": [0, 40]}})
+    assert warm.shift
+    assert warm.shift.law == "wlf"
+    assert warm.scene(1, 1.0, 1.0, temperature=40.0).material.relaxation_times[0] == pytest.approx(
+        warm.shift.factor(40.0) * material.relaxation_times[0], rel=1e-11
+    )
     assert material.long_term_shear_modulus == pytest.approx(4.17 / 2.98, rel=0.02)
     page = Path("rubber_mine.html").read_text(encoding="utf-8")
     assert page.count("data:image/png;base64,") == 7
@@ -45,6 +51,9 @@ def test_from_measured_moduli_to_a_config_and_a_deck(dma: str, capsys: pytest.Ca
     frequency = np.geomspace(1.0, 1e10, 20)
     back = load(CONFIG, "back.yaml").material
     assert back.complex_shear_modulus(frequency) == pytest.approx(material.complex_shear_modulus(frequency), rel=1e-8)
+    assert main([*given, "--code", "abaqus"]) == 0
+    assert "*TRS" in capsys.readouterr().out
+    assert main([*given, "--code", "lsdyna", "--temperature", "40"]) == 0
     assert main([*given, "--code", "abaqus", "--rubber", "zhou2019"]) == 0
     assert "*MATERIAL, NAME=zhou2019" in capsys.readouterr().out
 

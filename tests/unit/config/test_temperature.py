@@ -117,3 +117,6 @@ def test_kelvin_and_rubbers_that_do_not_relax_are_unlikely() -> None:
     assert any("the temperature 293.15 degC is above" in one and "is it in K, 20 degC?" in one for one in said)
     assert any("rubber zhou2019 at 293.15 degC dissipates next to nothing" in one for one in said)
     assert not any("at 20 degC" in one for one in said)
+    cold = rubfric.load({"rubbers": {"zhou2019": {"shift": WLF}}, "grid": {"temperatures": [-30, 20]}}).unlikely()
+    assert [one.rpartition(": ")[2] for one in cold] == ["its series has none so fast"]
+    assert cold[0].startswith("rubber zhou2019 at -30 degC is elastic at the highest speeds: the road excites it at ")
