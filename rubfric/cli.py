@@ -13,6 +13,7 @@ from rubfric.config.default import base_configs
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.rig.cli import add_rig
+from rubfric.road_commands import add_road
 from rubfric.rubber.material import PLANES
 from rubfric.rubber_commands import add_rubber
 from rubfric.scene.procedure import STARTS
@@ -112,6 +113,7 @@ def _parser() -> argparse.ArgumentParser:
     init.set_defaults(run=_init)
     add_rig(commands, _configs)
     add_rubber(commands, _configs)
+    add_road(commands, _configs)
     return parser
 
 

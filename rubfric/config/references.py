@@ -7,6 +7,7 @@ from typing import Any
 
 from rubfric import checks
 from rubfric.config.measured import MeasuredRubber
+from rubfric.config.measured_road import MeasuredRoad
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -88,7 +89,8 @@ def references(sections: Mapping[str, Any]) -> list[str]:
             look(Choice(words=claims.readings).check, "claims.compare", name)
     if {"road", "roads"} <= set(sections) and not any(fault.startswith("road ") for fault in found):
         for key, number in _scales(sections):
-            look(scale_number, key, number, len(sections["roads"][sections["road"]]))
+            road = sections["roads"][sections["road"]]
+            look(scale_number, key, number, road.scales if isinstance(road, MeasuredRoad) else len(road))
     known = not any(fault.startswith("rubber ") for fault in found)
     if known and {"rubber", "rubbers", "grid"} <= set(sections):
         rubber = sections["rubber"]

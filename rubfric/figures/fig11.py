@@ -76,7 +76,7 @@ class _Sheet:
 
 
 @style.applied()
-def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
+def draw(results: Sequence[xr.Dataset], draws: int = 0, windows: bool = False) -> Figure:
     """Draw the block on one period of the road, and a spot of its contact magnified, by pressure and speed.
 
     Parameters
@@ -86,6 +86,8 @@ def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
         speed; a scene that was refused or not needed has the attribute ``refusal``, which its panel says instead.
     draws : int
         How many roads with random phases were simulated, of which this is the first; 0 where the phases are given.
+    windows : bool
+        Whether they are windows of a measured profile instead.
 
     Returns
     -------
@@ -113,7 +115,7 @@ def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
     }
     strip, spot = _views(road, float(results[0].attrs["aspect"]), list(blocks.values()))
     norm = colour_scale(solved)
-    sheet = _sheet(grid, strip, spot, draws)
+    sheet = _sheet(grid, strip, spot, _first(draws, windows))
     figure = Figure(figsize=(sheet.width, sheet.height))
     for number, place in enumerate(product(grid.pressures, grid.speeds)):
         upper, lower = (_panel(figure, sheet, grid, number, view) for view in (strip, spot))
@@ -141,25 +143,30 @@ def _views(road: WaveRoad, aspect: float, blocks: Sequence[DeformedBlock]) -> tu
     return strip, _View(left, left + wide, float(seen.min()) - _UNDER * wide, float(seen.max()) + _ABOVE * wide)
 
 
-def _sheet(grid: SceneGrid, strip: _View, spot: _View, draws: int) -> _Sheet:
+def _sheet(grid: SceneGrid, strip: _View, spot: _View, first: str) -> _Sheet:
     rows, columns = len(grid.pressures), len(grid.speeds)
     panel = min((style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _BESIDE) / columns, _WIDEST)
     width = _LEFT + _RIGHT + columns * panel + (columns - 1) * _BESIDE
-    note = textwrap.wrap(_note(grid, strip, spot, draws), int(19.0 * (width - 0.1)))
+    note = textwrap.wrap(_note(grid, strip, spot, first), int(19.0 * (width - 0.1)))
     bottom = _BOTTOM + _NOTE_LINE * len(note)
     row = panel * (strip.proportion + spot.proportion) + _BETWEEN
     height = _TOP + bottom + rows * row + (rows - 1) * _BELOW
     return _Sheet(width, height, panel, panel * strip.proportion, panel * spot.proportion, bottom, "\n".join(note))
 
 
-def _note(grid: SceneGrid, strip: _View, spot: _View, draws: int) -> str:
+def _first(draws: int, windows: bool) -> str:
+    """Return of which road the figure is, where there are several."""
+    what = f"The road is the first of {draws} with random phases, and friction that on this road alone."
+    return "" if not draws else what.replace("with random phases", "windows of the measured one") if windows else what
+
+
+def _note(grid: SceneGrid, strip: _View, spot: _View, first: str) -> str:
     wide, narrow = strip.right - strip.left, spot.right - spot.left
     solved = [result for result in grid.results.values() if REFUSAL not in result.attrs]
     note = [
         f"A period of the road, {wide:.3g} mm, and the framed spot, {narrow:.2g} mm, {wide / narrow:.2g} times larger."
     ]
-    if draws:
-        note.append(f"The road is the first of {draws} with random phases, and friction that on this road alone.")
+    note += [first] if first else []
     note.append("The block slides to the right; orange: contact.")
     if any(map(is_finite, solved)):
         note.append("Displacements are to scale; the white lines made squares before deformation.")

@@ -17,7 +17,7 @@ from rubfric.errors import InvalidInput
 from rubfric.figures.bands import draw_band
 from rubfric.figures.columns import check_columns
 from rubfric.results.scales import AXES, TOTAL
-from rubfric.results.selection import written
+from rubfric.results.selection import WINDOWS, written
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,9 @@ class Totals:
     friction, errors : dict of numpy.ndarray
         The friction coefficient by each way, and its whole absolute error.
     drawn : bool
-        Whether totals are means over roads with random phases, not those of one road.
+        Whether totals are means over roads with random phases, or windows of one, not those of one road.
+    windows : bool
+        Whether they are over windows of a measured profile.
     """
 
     speeds: Array
@@ -57,6 +59,7 @@ class Totals:
     friction: dict[str, Array]
     errors: dict[str, Array]
     drawn: bool
+    windows: bool
 
     @property
     def way(self) -> str:
@@ -83,7 +86,8 @@ class Totals:
     @property
     def road(self) -> str:
         """Of which road the totals are, in words."""
-        return "mean of random phases" if self.drawn else "one road, these phases"
+        several = "mean of windows" if self.windows else "mean of random phases"
+        return several if self.drawn else "one road, these phases"
 
 
 def totals(table: pd.DataFrame, pressure: float) -> Totals:
@@ -126,6 +130,7 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
         friction={way: column(name) for way, name in friction.items()},
         errors={way: column(name) for way, name in errors.items()},
         drawn=bool(rows["friction_road_error"].notna().any()),
+        windows="note" in rows and bool(rows["note"].astype(str).str.contains(WINDOWS).any()),
     )
 
 

@@ -10,7 +10,7 @@ from rubfric.dma.bootstrap import Bands
 from rubfric.dma.result import Fit
 from rubfric.figures.dma import draw
 from rubfric.figures.style import png
-from rubfric.pages.render import render
+from rubfric.pages.render import render, sentence
 
 _CAPTIONS = {
     "isotherms": "Moduli as measured, at each temperature.",
@@ -55,11 +55,6 @@ def rubber_page(fit: Fit, bands: Bands, name: str, entry: str) -> str:
         branches=list(_branches(fit, bands)),
         entry=entry,
     )
-
-
-def sentence(words: str) -> str:
-    """Return words as a sentence."""
-    return f"{words[:1].upper()}{words[1:]}."
 
 
 def results(fit: Fit, bands: Bands) -> Iterator[tuple[str, str, str]]:

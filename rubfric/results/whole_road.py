@@ -36,7 +36,9 @@ class WholeRoad:
     height : float
         Of the block on the whole road, mm.
     roads : tuple of WaveRoad
-        The road, or those with random phases.
+        The road, or those with random phases; of a measured profile its sines.
+    windows : int
+        How many windows of a measured profile are slid over in their place; 0 for none.
     """
 
     way: str
@@ -47,6 +49,12 @@ class WholeRoad:
     aspect: float
     height: float
     roads: tuple[WaveRoad, ...]
+    windows: int = 0
+
+    @property
+    def count(self) -> int:
+        """How many roads are simulated, if any."""
+        return self.windows or len(self.roads)
 
     @classmethod
     def from_parameters(cls, parameters: Mapping[str, Any]) -> WholeRoad:

@@ -18,8 +18,8 @@ from rubfric.scene.scene import Scene
 # finite strain at 1 %, of its four marches, and of 42 scenes of the whole road, reduced to 1 %. Small strain and other
 # accuracies by the factors measured there.
 _SCENE, _WHOLE, _MARCH, _TABLE, _FIGURE, _OTHER = 0.56, 10.0, 17.0, 0.5, 0.9, 1.0
-# The fit of a rubber with 200 bootstrap samples, and its page.
-_FIT = 5.0
+# The fit of a rubber with 200 bootstrap samples, and the reading of a road, each with its page.
+_FIT, _ROAD = 5.0, 3.0
 _SMALL, _STEPS = 0.05, 64 * 64 * 12
 # Temperatures of which the moduli are named.
 _MOST_TEMPERATURES = 5
@@ -50,6 +50,7 @@ class Costs:
                 "whole_scene": _WHOLE * _weight(whole) if whole else 0.0,
                 "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
                 "rubber_fit": _FIT,
+                "road_read": _ROAD,
                 "reading": _SCENE * reading * _factor(draft) * 0.3,
             }
         )
@@ -96,6 +97,7 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         *([f"a campaign of your own, {grid}{without}"] if own else []),
         *_scales(campaign),
         *_fit(campaign),
+        *_survey(campaign),
         *_moduli(campaign),
         _scenes(campaign),
     ]
@@ -108,6 +110,12 @@ def _scales(campaign: Campaign) -> list[str]:
         f"steepest slope {scale.steepest_slope:.3g}"
         for number, scale in enumerate(campaign.road, 1)
     ]
+
+
+def _survey(campaign: Campaign) -> list[str]:
+    """Say what a measured road was made into."""
+    survey = campaign.survey
+    return [survey.words, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)] if survey else []
 
 
 def _fit(campaign: Campaign) -> list[str]:

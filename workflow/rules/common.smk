@@ -59,7 +59,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"((draw|window)\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -203,6 +203,7 @@ def made_for_a_config():
         ),
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
+        "road_read": ROAD_FILES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -229,6 +230,7 @@ def follow(workflow):
                 "figures/fig6.png",
                 "explorer.html",
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
+                *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
             )
         ],
         dry=lambda: workflow.dryrun,

@@ -33,6 +33,7 @@ WHOLE_FIGURES = ["fig11"] if WHOLE else []
 # Three fast speeds at two light loads, where all scales at once are solved in seconds; of random roads the first.
 DRAW = next(iter(CAMPAIGN.whole_roads), "")
 DRAWS = len(CAMPAIGN.whole_roads) if DRAW else 0
+DRAWN_KIND = "windows" if DRAW.startswith("window") else "random roads"
 SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
@@ -188,7 +189,7 @@ rule whole_figure:
             "fig11",
             "../report/whole_figure.rst",
             lambda _: FIGURE_WORDS["fig11"]
-            + (f", first of {DRAWS} random roads" if DRAWS else ""),
+            + (f", first of {DRAWS} {DRAWN_KIND}" if DRAWS else ""),
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
@@ -208,6 +209,7 @@ rule whole_figure:
             digests=params.digests,
             draws=params.draws,
             temperature=params.temperature,
+            windows=DRAW.startswith("window"),
         )
 
 

@@ -8,7 +8,14 @@ from rubfric.results.dataset import load
 from rubfric.results.provenance import OTHER_SCENE
 
 
-def main(results: list[str], digests: list[str], outputs: list[str], draws: int, temperature: float | None) -> None:
+def main(
+    results: list[str],
+    digests: list[str],
+    outputs: list[str],
+    draws: int,
+    temperature: float | None,
+    windows: bool = False,
+) -> None:
     """Draw figure 11 and save it under every path of ``outputs``.
 
     Parameters
@@ -19,6 +26,8 @@ def main(results: list[str], digests: list[str], outputs: list[str], draws: int,
         Paths; their endings choose the formats.
     draws : int
         Roads with random phases, of which the results are of the first; 0 where phases are given.
+    windows : bool
+        Whether they are windows of a measured profile instead.
     temperature : float or None
         That of the results, degC, which the figure names.
     """
@@ -27,4 +36,4 @@ def main(results: list[str], digests: list[str], outputs: list[str], draws: int,
         read.append(load(path))
         if read[-1].attrs.get("scene_digest") != digest:
             raise BrokenResult(f"{path} {OTHER_SCENE}; delete it and run again")
-    save(name_temperature(fig11.draw(read, draws), temperature), *outputs)
+    save(name_temperature(fig11.draw(read, draws, windows), temperature), *outputs)

@@ -222,7 +222,9 @@ def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, An
     """Return the scene of a result."""
     places = [np.flatnonzero(axes[axis] == result.attrs[axis]) for axis in ("pressure", "velocity")]
     name, scene = WHOLE if is_whole(result) else str(result.attrs["scale"]), None
-    if all(place.size for place in places) and result.attrs["aspect"] == aspect and name in scenes:
+    # The block on the whole road has a height of its own where that is a measured profile.
+    fits = is_whole(result) or result.attrs["aspect"] == aspect
+    if all(place.size for place in places) and fits and name in scenes:
         pressure, speed = (int(place[0]) for place in places)
         scene = scenes[name][pressure][speed]
     if scene is None:

@@ -174,7 +174,7 @@ function showScene(place) {
     : `Small strain: only vertical displacements are shown, to scale, without the mean compression of ${percent(scene.compression)}.`;
   const hint = (ZOOMS ? " Drag to zoom, double click to see all again." : "") + (scale.period ? " Click on the block to magnify another spot." : "");
   const seen = scale.period ? ` One period of the road, and the framed spot, ${rounded(0.75 * scale.wavelength, 2)}${THIN}mm wide, magnified.` : "";
-  const drawn = place === "whole" && scale.draws ? " The picture is of the first of the random roads." : "";
+  const drawn = place === "whole" && scale.draws ? ` The picture is of the first of the ${scale.windows ? "windows" : "random roads"}.` : "";
   byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below.${seen} ${how}${drawn}`,
     element("span", { class: "fine" }, hint));
   byId("picture").setAttribute("aria-label", `The deformed block on ${placeName(place).toLowerCase()} at ${sceneName()}, in contact on ${percent(scene.contact)} of its area.`);
@@ -205,7 +205,7 @@ function showTotal() {
   byId("energies").replaceChildren();
   byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
     "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored." +
-    (data.whole?.draws ? ` The whole road in the picture is the first of ${data.whole.draws} with random phases.` : "");
+    (data.whole?.draws ? ` The whole road in the picture is the first of ${data.whole.draws} ${drawnWords(data)}.` : "");
   byId("spot").hidden = true;
   byId("numbers").replaceChildren(totalNumbers(data, chosen));
   byId("warnings").replaceChildren(...warningsOf(scenes));

@@ -12,7 +12,7 @@ import xarray as xr
 from rubfric.figures.columns import check_columns
 from rubfric.figures.deformation import profile
 from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WORDS
-from rubfric.results.selection import DRAWS, refusals
+from rubfric.results.selection import DRAWS, WINDOWS, refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
@@ -94,6 +94,8 @@ def about(whole: xr.Dataset, result: xr.Dataset | None) -> dict[str, Any]:
         Of any scene on it that is pictured.
     """
     found: dict[str, Any] = {"number": WHOLE, "draws": int(whole[DRAWS].max()) if DRAWS in whole else 0}
+    if found["draws"] and WINDOWS in whole[DRAWS].attrs.get("long_name", ""):
+        found["windows"] = True
     if result is None:
         return found | {"wavelength": 2.0 * math.pi / float(whole["wavenumber"].min()), "waves": []}
     road = profile(result)

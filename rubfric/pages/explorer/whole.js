@@ -3,10 +3,15 @@
 
 const WAY_NAMES = { sum: "sum of the scales", corrected: "sum, corrected for the coupling", cascade: "cascade from scale to scale", persson: "Persson’s theory", direct: "all scales at once" };
 
+/** What several roads are. */
+function drawnWords(data) {
+  return data.whole?.windows ? "windows of the measured road" : "roads with random phases";
+}
+
 /** Of which road a total is. */
 function roadWords(data) {
   const draws = data.whole?.draws ?? 0;
-  return draws ? `mean over ${draws} roads with random phases` : "on one road, with these phases";
+  return draws ? `mean over ${draws} ${drawnWords(data)}` : "on one road, with these phases";
 }
 
 /** Why the whole road has no friction there, in two words. */
@@ -24,7 +29,7 @@ function coversTotal(data, { pressure, speed }) {
   const share = (name, words) => (of(name) ? [`${words} (${rounded(of(name), 2)})`] : []);
   const covered = [
     ...share("numerical", "mesh and solver"), ...share("coupling", "what it may miss of the coupling of the scales"),
-    ...share("road", "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
+    ...share("road", data.whole?.windows ? "so few windows of the road" : "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
   ];
   const about = taken === "direct" ? `${WAY_NAMES.direct} ${roadWords(data)}` : WAY_NAMES[taken];
   const said = taken === "direct" ? "" : ` ${sentence(note[pressure][speed] ?? "")}`;

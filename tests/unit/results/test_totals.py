@@ -137,6 +137,8 @@ def test_random_phases_add_their_standard_error(campaign: xr.Dataset) -> None:
     assert row["friction_road_error"] == 0.02
     assert row["friction_total_error"] == pytest.approx(0.023)
     assert row["note"] == "mean of 3 roads with random phases"
+    windows = at(total_table(campaign, whole, road("direct", windows=3)), 1.0, 5.0)
+    assert windows["note"] == "mean of 2 windows of the measured road; 1 more refused: It folds."
     short = at(table, 1.0, 5.0)
     assert short["refused"] == 1
     assert short["note"] == "mean of 2 roads with random phases; 1 more refused: It folds."
