@@ -13,7 +13,7 @@ from rubfric.arrays import Complex, Real
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.areal.compliance import ArealCompliance
 from rubfric.mechanics.areal.contact import TOLERANCE, ArealContact, solve_contact
-from rubfric.mechanics.steady.energies import MOST_CLOSURE, ROUND_OFF, disagreement
+from rubfric.mechanics.steady.energies import ROUND_OFF, disagreement
 from rubfric.road.areal import ArealSpectrum
 from rubfric.scene.areal import ArealScene
 
@@ -21,9 +21,11 @@ from rubfric.scene.areal import ArealScene
 _COARSEST, _PER_WAVE = 16, 4
 # Fewest nodes in contact that make a prediction.
 _FEWEST = 16
-# How many times the change of friction from half as many nodes along each side, and the difference between the routes,
-# its error may be: see ``friction_error``.
-_CHANGE, _ROUTES = 1.0, 1.0
+# What friction from pressures on slopes changed from half as many nodes along each side counts for, and most of its
+# share of friction that it counts for; how many times such estimates an error may be: see ``friction_error``.
+_SLOPES, _MOST_SLOPES, _MARGIN = 0.4, 0.25, 1.3
+# Nodes resolve a contact whose dissipation changed by less than this share from half as many.
+_MOST_CHANGE = 0.5
 
 
 @dataclass(frozen=True)
@@ -137,24 +139,27 @@ def solve_areal(scene: ArealScene) -> ArealSolution:
             break
     assert contact is not None
     _require_nodes(scene, contact)
-    solution = ArealSolution(scene, compliance, contact, tuple(meshes))
-    if not solution.closure <= MOST_CLOSURE:
+    coarse, fine = meshes[-2:]
+    change = disagreement((coarse.dissipation, fine.dissipation), ROUND_OFF)
+    if not change <= _MOST_CHANGE:
         raise NotConverged(
             scene.name,
             contact.pivots + contact.splittings,
-            solution.closure,
-            "relative difference of the two friction coefficients",
-            "nodes do not resolve this contact: raise the pressure, lengthen the shortest wave, or raise "
-            "numerics.nodes_max",
+            change,
+            "relative change of friction from half as many nodes along each side",
+            "nodes do not resolve this contact: raise the pressure or numerics.nodes_max, or leave out short waves",
         )
-    return solution
+    return ArealSolution(scene, compliance, contact, tuple(meshes))
 
 
 def friction_error(meshes: tuple[ArealFriction, ...] | list[ArealFriction]) -> float:
     """Return the estimated error of friction by dissipation on the last nodes, absolute.
 
-    It falls about as the distance of nodes, since edges of contact jump from node to node: what changed from half as
-    many along each side is about what is missing. The difference of the routes is another estimate; the larger counts.
+    1.3 times the largest of three: what dissipation changed from half as many nodes along each side; by how much the
+    routes differ; and 0.4 times what pressures on slopes changed. The latter two count for at most a quarter of
+    friction: they stay where rubber that is nearly relaxed dissipates next to nothing, which dissipation alone gets right.
+    Calibrated on 48 scenes at random against 512 nodes along a side: none of 138 errors was larger, and half of them
+    were less than a fifth of it.
 
     Parameters
     ----------
@@ -162,9 +167,9 @@ def friction_error(meshes: tuple[ArealFriction, ...] | list[ArealFriction]) -> f
         Two at least.
     """
     coarse, fine = meshes[-2:]
-    change = max(abs(fine.dissipation - coarse.dissipation), abs(fine.contact - coarse.contact))
-    routes = abs(fine.dissipation - fine.contact)
-    return max(_CHANGE * change, _ROUTES * routes) + TOLERANCE * abs(fine.dissipation)
+    size, change = abs(fine.dissipation), abs(fine.dissipation - coarse.dissipation)
+    slopes = max(abs(fine.dissipation - fine.contact), _SLOPES * abs(fine.contact - coarse.contact))
+    return _MARGIN * max(change, min(slopes, _MOST_SLOPES * size)) + TOLERANCE * size
 
 
 def _columns(scene: ArealScene, spectrum: ArealSpectrum) -> tuple[int, int]:
