@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from scipy import fft
@@ -132,6 +132,9 @@ class ArealRoad(Protocol):
     @property
     def spectrum(self) -> ArealSpectrum:
         """Its waves."""
+
+    def parameters(self) -> dict[str, Any]:
+        """Return plain values that describe it, its kind among them."""
 
 
 def unit_vector(direction: float) -> Real:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
@@ -34,6 +36,10 @@ class ScannedRoad:
     spectrum: ArealSpectrum
     missing: int
     form: Real
+
+    def parameters(self) -> dict[str, Any]:
+        """Return a digest of its waves, and what was missing."""
+        return {"kind": "scan", "waves_sha256": _digest(self.spectrum), "missing": self.missing}
 
     @classmethod
     def of_heights(
@@ -94,6 +100,13 @@ class ScannedRoad:
             filled = _blended(filled, axis, blend)
         spectrum = _series(filled, spacing)
         return cls(spectrum.without(cut_off) if cut_off else spectrum, missing, form)
+
+
+def _digest(spectrum: ArealSpectrum) -> str:
+    found = hashlib.sha256(repr(spectrum.periods).encode())
+    found.update(np.ascontiguousarray(spectrum.harmonics, dtype="<i8").tobytes())
+    found.update(np.ascontiguousarray(spectrum.amplitudes, dtype="<c16").tobytes())
+    return found.hexdigest()
 
 
 def _form(surface: Real, known: Flags, degree: int) -> tuple[Real, Real]:

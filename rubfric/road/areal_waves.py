@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -74,6 +74,10 @@ class ArealWaves:
         """
         lengths, angles = _polar(_nearest(_components(wavenumbers, directions)))
         return cls(tuple(amplitudes), tuple(lengths), tuple(angles), tuple(phases))
+
+    def parameters(self) -> dict[str, Any]:
+        """Return its fields, and its kind."""
+        return {"kind": "waves", **asdict(self)}
 
     @cached_property
     def spectrum(self) -> ArealSpectrum:

@@ -8,9 +8,9 @@ those of the density, so that the root mean square asked for is met exactly.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -62,6 +62,10 @@ class SelfAffine:
                 f"road.cut_off is {self.cut_off:g} mm, but must be at least {self.period / MOST_WAVES:.4g} mm: a "
                 f"surface resolves at most {MOST_WAVES} waves along the period"
             )
+
+    def parameters(self) -> dict[str, Any]:
+        """Return its fields, and its kind."""
+        return {"kind": "self_affine", **asdict(self)}
 
     @cached_property
     def spectrum(self) -> ArealSpectrum:

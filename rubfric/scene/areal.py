@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import math
-from dataclasses import dataclass, field
-from typing import Annotated
+from dataclasses import asdict, dataclass, field
+from typing import Annotated, Any
 
 from rubfric import checks
 from rubfric.road.areal import ArealRoad
@@ -80,6 +82,18 @@ class ArealScene:
     def height(self) -> float:
         """H = aspect x wavelength, mm."""
         return self.aspect * self.wavelength
+
+    def parameters(self) -> dict[str, Any]:
+        """Return plain nested values: numbers, words, lists."""
+        numbers = {name: getattr(self, name) for name in ("velocity", "pressure", "direction", "aspect")}
+        parts = {"road": self.road.parameters(), "material": asdict(self.material), "numerics": asdict(self.numerics)}
+        plain: dict[str, Any] = json.loads(json.dumps(numbers | parts))
+        return plain
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the parameters, for provenance."""
+        return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()
 
     @property
     def name(self) -> str:

@@ -13,11 +13,14 @@ from rubfric.mechanics.areal.steady import ArealSolution, solve_areal
 from rubfric.mechanics.small.steady import solve_small
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.layer import layer_compliance
+from rubfric.mechanics.theory.persson import contact_fractions, persson_friction
+from rubfric.mechanics.theory.persson_areal import persson_areal
 from rubfric.road.areal import ArealSpectrum
 from rubfric.road.areal_scan import ScannedRoad
 from rubfric.road.areal_waves import ArealWaves
 from rubfric.road.self_affine import SelfAffine
 from rubfric.road.sine import SineScale
+from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 from rubfric.scene.areal import ArealNumerics, ArealScene
 from rubfric.scene.numerics import Numerics
@@ -188,3 +191,48 @@ def test_what_nodes_do_not_resolve_is_refused(paper_rubber: Material) -> None:
     light = replace(scene, road=ROUGH, velocity=1e4, pressure=1e-4)
     with pytest.raises(NotConverged, match=r"nodes in contact, out of 4096, is \d+; at least 16 .* pressure to about"):
         solve_areal(light)
+
+
+def test_persson_is_exact_in_full_contact_and_near_in_half(paper_rubber: Material) -> None:
+    scene = ArealScene(replace(ROUGH, rms_slope=0.02), 10.0, 3.0, paper_rubber, 30.0, numerics=nodes(64))
+    found = solve_areal(scene)
+    theory = persson_areal(paper_rubber, scene.road.spectrum, 10.0, 3.0, scene.height, 30.0)
+    assert found.contact.fraction == 1.0
+    assert theory.friction_coefficient == pytest.approx(found.friction_coefficient, rel=1e-3)
+    half = replace(scene, road=ROUGH, pressure=0.6, numerics=nodes(128))
+    found = solve_areal(half)
+    theory = persson_areal(paper_rubber, ROUGH.spectrum, 10.0, 0.6, half.height, 30.0)
+    assert 0.2 < found.contact.fraction < 0.7
+    assert theory.contact_fraction == pytest.approx(found.contact.fraction, abs=0.1)
+    assert theory.friction_coefficient == pytest.approx(found.friction_coefficient, rel=0.25)
+    reduced = persson_areal(paper_rubber, ROUGH.spectrum, 10.0, 0.6, half.height, 30.0, gamma=0.5)
+    assert 0.5 < reduced.friction_coefficient / theory.friction_coefficient < 1.0
+
+
+def test_persson_on_ridges_is_that_of_the_plane_theory(paper_rubber: Material) -> None:
+    amplitudes, wavenumbers = (0.015, 0.006), (35.0, 105.0)
+    plane = WaveRoad(amplitudes, wavenumbers, (0.0, 0.0))
+    areal = ArealWaves(amplitudes, wavenumbers, (0.0, 0.0), (0.0, 0.0)).spectrum
+    found = persson_areal(paper_rubber, areal, 100.0, 2.0, 0.1, gamma=0.5)
+    expected = persson_friction(paper_rubber, plane, 100.0, 2.0, 0.1, "strain", gamma=0.5)
+    np.testing.assert_allclose(found.friction, expected, rtol=1e-9)
+    shares = contact_fractions(paper_rubber, plane, 100.0, 2.0, 0.1, "strain")
+    np.testing.assert_allclose(found.contact, shares, rtol=1e-9)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3])
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_standing_elastic_contact_is_that_of_tamaas(elastic_rubber: Material, share: float) -> None:
+    """Frérot, Anciaux, Rey, Pham-Ba and Molinari 2020, J. Open Source Softw. 5, 2121; where it is installed."""
+    tamaas = pytest.importorskip("tamaas", reason="Tamaas is not installed")
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    modulus = float(elastic_rubber.plane_modulus(0.0, "strain").real)
+    road, pressure = replace(ROUGH, cut_off=0.0625), share * modulus * 0.25
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], [128, 128])
+    model.E, model.nu = modulus, 0.0
+    tamaas.PolonskyKeerRey(model, road.spectrum.heights((128, 128)), 1e-8).solve(pressure)
+    scene = ArealScene(road, 1.0, pressure, elastic_rubber, aspect=20.0, numerics=nodes(128, 256))
+    found = solve_areal(scene).contact
+    expected = np.array(model.traction)
+    np.testing.assert_allclose(found.pressure, expected, atol=2e-4 * expected.max())
+    assert found.fraction == pytest.approx(float((expected > 0.0).mean()), abs=1e-3)

@@ -102,6 +102,17 @@ class ArealSolution:
         shape = self.contact.pressure.shape
         return self.scene.road.spectrum.heights(shape) + self.contact.gap - self.contact.offset
 
+    def dissipated(self) -> Real:
+        """Return what each wave of pressure adds to the friction coefficient on the finest nodes.
+
+        Returns
+        -------
+        ndarray, shape (ny, nx // 2 + 1)
+            For wavevectors in the order of ``scipy.fft.rfft2``, a wave and its conjugate together.
+        """
+        spectrum = self.compliance.surface(self.meshes[-1].shape).compliance
+        return _dissipated(self.scene, self.compliance, spectrum, self.contact)
+
 
 def solve_areal(scene: ArealScene) -> ArealSolution:
     """Slide a block steadily over an areal road.
@@ -215,16 +226,21 @@ def _friction(
 
     What a wave dissipates is -|p_k|² Im C(k) times the wavenumber along the direction of sliding, in the unit of v p.
     """
-    ny, nx = shape = (contact.pressure.shape[0], contact.pressure.shape[1])
-    series = fft.rfft2(contact.pressure) / contact.pressure.size
-    both = np.full(nx // 2 + 1, 2.0)  # a wave and its conjugate, which the first and last column hold themselves
-    both[0] = both[-1] = 1.0
-    lost = -float(np.sum(both * compliance.rates(shape) * np.abs(series) ** 2 * spectrum.imag))
+    shape = (contact.pressure.shape[0], contact.pressure.shape[1])
+    lost = float(_dissipated(scene, compliance, spectrum, contact).sum())
     along, across = (
         float(np.mean(contact.pressure * scene.road.spectrum.slopes(shape, scene.direction + turn))) for turn in (0, 90)
     )
-    load = scene.pressure
-    return ArealFriction((ny, nx), lost / load, along / load, across / load, contact.fraction)
+    return ArealFriction(shape, lost, along / scene.pressure, across / scene.pressure, contact.fraction)
+
+
+def _dissipated(scene: ArealScene, compliance: ArealCompliance, spectrum: Complex, contact: ArealContact) -> Real:
+    """Return what each wave of pressure adds to the friction coefficient, shape (ny, nx // 2 + 1)."""
+    shape = (contact.pressure.shape[0], contact.pressure.shape[1])
+    series = fft.rfft2(contact.pressure) / contact.pressure.size
+    both = np.full(series.shape[1], 2.0)  # a wave and its conjugate, which the first and last column hold themselves
+    both[0] = both[-1] = 1.0
+    return -both * compliance.rates(shape) * np.abs(series) ** 2 * spectrum.imag / scene.pressure
 
 
 def _require_nodes(scene: ArealScene, contact: ArealContact) -> None:
