@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.areal_road import ArealEntry
 from rubfric.config.default import over_default
 from rubfric.config.fitting import fitted_rubber
 from rubfric.config.measured import MeasuredRubber
@@ -111,6 +112,8 @@ class Campaign:
         The rubber's shift factors.
     temperatures : tuple of float
         degC, ascending; none where the rubber is simulated as it is given.
+    areal_roads : dict of str to ArealEntry
+        Roads that are surfaces, by name.
     """
 
     results: str
@@ -135,6 +138,7 @@ class Campaign:
     survey: Survey | None = None
     shift: Shift | None = None
     temperatures: tuple[float, ...] = ()
+    areal_roads: dict[str, ArealEntry] = field(default_factory=dict)
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
@@ -164,6 +168,7 @@ class Campaign:
             results=given.results,
             material=material,
             road_name=given.road,
+            areal_roads={name: road for name, road in given.roads.items() if isinstance(road, ArealEntry)},
             road=road,
             phases=phases,
             plane=given.plane,

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Discriminator, Tag, create_model, model_validator
 
+from rubfric.config.areal_road import ArealEntry, is_areal
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.measured_road import MeasuredRoad
@@ -203,7 +204,9 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_road(given: Any) -> str:
-    """Return the tag of a road that is measured, or of a list of scales, as which a single scale is taken too."""
+    """Return the tag of a road that is areal or measured, or of a list of scales; a single scale is taken for one."""
+    if is_areal(given):
+        return f"{HERE}areal"
     single = isinstance(given, Mapping) and set(given) <= set(Scale.model_fields)
     measured = isinstance(given, (MeasuredRoad, Mapping)) and not single
     return f"{HERE}{'measured' if measured else 'scales'}"
@@ -329,9 +332,10 @@ class Config(Entry):
                     Scales("Scales of a road, from coarse to fine; scale 1 is the first."),
                     Tag(f"{HERE}scales"),
                 ]
-                | Annotated[MeasuredRoad, Tag(f"{HERE}measured")],
+                | Annotated[MeasuredRoad, Tag(f"{HERE}measured")]
+                | Annotated[ArealEntry, Tag(f"{HERE}areal")],
                 Discriminator(_kind_of_road),
             ],
         ],
-        Catalogue("Roads by name: by their scales, or by the file of a measured profile."),
+        Catalogue("Roads by name: by their scales, by the file of a measured profile, or areal."),
     ]

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.areal_road import ArealEntry
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.measured_road import MeasuredRoad
 from rubfric.config.models import (
@@ -88,8 +89,13 @@ def references(sections: Mapping[str, Any]) -> list[str]:
         for name in claims.compare:
             look(Choice(words=claims.readings).check, "claims.compare", name)
     if {"road", "roads"} <= set(sections) and not any(fault.startswith("road ") for fault in found):
-        for key, number in _scales(sections):
-            road = sections["roads"][sections["road"]]
+        road = sections["roads"][sections["road"]]
+        if isinstance(road, ArealEntry):
+            found.append(
+                f"road is {sections['road']}, an areal road, but must be one of scales or of a profile: over an areal "
+                f"road one scene slides at a time, by   rubfric simulate --road {sections['road']}"
+            )
+        for key, number in [] if isinstance(road, ArealEntry) else _scales(sections):
             look(scale_number, key, number, road.scales if isinstance(road, MeasuredRoad) else len(road))
     known = not any(fault.startswith("rubber ") for fault in found)
     if known and {"rubber", "rubbers", "grid"} <= set(sections):

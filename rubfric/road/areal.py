@@ -15,7 +15,6 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
-from scipy import fft
 
 from rubfric.arrays import Complex, Flags, Real, Whole
 
@@ -123,7 +122,7 @@ class ArealSpectrum:
         series[n % ny, m] = half
         ridges = m == 0  # waves along y are their own column, of which the transform wants both halves
         series[-n[ridges] % ny, 0] = half[ridges].conj()
-        return fft.irfft2(series, shape, overwrite_x=True)
+        return np.fft.irfft2(series, shape, axes=(0, 1))
 
 
 class ArealRoad(Protocol):

@@ -34,14 +34,25 @@ class ArealWaves:
         for any value outside its bounds.
     """
 
-    amplitudes: Annotated[tuple[float, ...], Items("a_j.", Number(unit="mm", low=0.0), distinct=False, ascending=False)]
-    wavenumbers: Annotated[tuple[float, ...], Items("k_j.", Number(unit="1/mm"), distinct=False, ascending=False)]
+    amplitudes: Annotated[
+        tuple[float, ...], Items("Amplitudes a_j.", Number(unit="mm", low=0.0), distinct=False, ascending=False)
+    ]
+    wavenumbers: Annotated[
+        tuple[float, ...], Items("Wavenumbers k_j.", Number(unit="1/mm"), distinct=False, ascending=False)
+    ]
     directions: Annotated[
         tuple[float, ...],
-        Items("d_j, of the wavevector, from x.", Number(unit="degrees", low=-360.0, high=360.0), 1, False, False),
+        Items(
+            "Directions d_j of the wavevectors, from x.",
+            Number(unit="degrees", low=-360.0, high=360.0),
+            1,
+            False,
+            False,
+        ),
     ]
     phases: Annotated[
-        tuple[float, ...], Items("phi_j.", Number(unit="rad", low=-1e6, high=1e6), distinct=False, ascending=False)
+        tuple[float, ...],
+        Items("Phases phi_j.", Number(unit="rad", low=-1e6, high=1e6), distinct=False, ascending=False),
     ]
 
     def __post_init__(self) -> None:
