@@ -98,3 +98,26 @@ def test_surface_that_does_not_converge_is_refused(paper_rubber: Material, monke
     monkeypatch.setattr(contact_module, "_TURNS", 2)
     with pytest.raises(NotConverged, match=r"^spot: not converged after 12 steps, .*raise the pressure"):
         solve_contact(surface_of(paper_rubber, 1000.0), ROAD.heights(SHAPE), 2.0, label="spot")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_contact_of_rubbers_at_random_is_balanced_to_the_tolerance(seed: int) -> None:
+    """Up to seven branches, ratios of the moduli up to 1e6, loads from spots to nearly full contact."""
+    draw = np.random.default_rng(seed)
+    branches = int(draw.integers(1, 8))
+    weights = 10.0 ** draw.uniform(-6.0, 0.0, branches)
+    share = float(draw.choice([0.3, 0.9, 0.999, 1.0 - 1e-6]))
+    times = 10.0 ** draw.uniform(-8.0, 2.0, branches)
+    rubber = Material("r", 4.0, float(draw.choice([0.0, 0.4999])), tuple(share * weights / weights.sum()), tuple(times))
+    velocity = 10.0 ** draw.uniform(-1.0, 4.0)
+    pressure = float(np.abs(rubber.plane_modulus(25.0 * velocity, "strain"))) * 0.1 * 10.0 ** draw.uniform(-2.0, 0.0)
+    shape = (32, 32)
+    surface, profile = surface_of(rubber, velocity, shape), ROAD.heights(shape)
+    found = solve_contact(surface, profile, pressure)
+    # What pressures the heights that are missed would take, over those there are: the measure of the solver's own.
+    gap = surface.deflection(found.pressure) + found.offset - profile
+    step = float(1.0 / np.abs(surface.compliance).max())
+    moved = np.maximum(found.pressure - step * gap, 0.0)
+    assert np.linalg.norm(moved - found.pressure) < 1e-4 * np.linalg.norm(found.pressure)
+    assert found.pressure.mean() == pytest.approx(pressure, rel=1e-12)
+    assert (found.pressure >= 0.0).all()
