@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rubfric.checks import number
 from rubfric.config.campaign import Campaign
 from rubfric.config.temperature import rubber_at
 from rubfric.errors import InvalidInput
@@ -66,6 +67,7 @@ def slide(campaign: Campaign, options: argparse.Namespace) -> int:
 
 def _scene(campaign: Campaign, options: argparse.Namespace) -> ArealScene:
     warm = campaign.figures.temperature if options.temperature is None else options.temperature
+    warm = None if warm is None else number("temperature", warm)
     numerics = {"accuracy": options.accuracy, "nodes_max": options.nodes}
     given = {"direction": options.direction, "aspect": options.aspect}
     return ArealScene(
@@ -74,6 +76,7 @@ def _scene(campaign: Campaign, options: argparse.Namespace) -> ArealScene:
         options.pressure,
         campaign.material if warm is None else rubber_at(campaign.material, campaign.shift, warm),
         numerics=ArealNumerics(**_told(numerics)),
+        temperature=warm,
         **_told(given),
     )
 

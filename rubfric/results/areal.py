@@ -138,7 +138,8 @@ def _by_mesh(solution: ArealSolution) -> dict[str, Any]:
 
 def _provenance(solution: ArealSolution) -> dict[str, Any]:
     scene, contact = solution.scene, solution.contact
-    return {
+    warm = {} if scene.temperature is None else {"temperature": scene.temperature}
+    return warm | {
         "title": f"Steady sliding of a rubber block on an areal road: {scene.name}",
         "Conventions": CONVENTIONS,
         "source": f"rubfric {rubfric.__version__}",
@@ -151,6 +152,6 @@ def _provenance(solution: ArealSolution) -> dict[str, Any]:
         "velocity": scene.velocity,
         "pressure": scene.pressure,
         "direction": scene.direction,
-        "units_of_attributes": "velocity mm s-1, pressure MPa, direction degrees",
+        "units_of_attributes": "velocity mm s-1, pressure MPa, direction degrees, temperature degC",
         "solver_history": f"{contact.pivots} pivoting and {contact.splittings} splitting steps on all nodes",
     }

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from rubfric import checks
 from rubfric.road.areal import ArealRoad
 from rubfric.rubber.material import Material
+from rubfric.rubber.shift import degrees
 from rubfric.rules import Integer, Number, check_fields
 from rubfric.scene.scene import ASPECT
 
@@ -59,6 +60,8 @@ class ArealScene:
         Height of the block over the longest wavelength of the road.
     numerics : ArealNumerics
         Accuracy and resolution.
+    temperature : float, optional
+        Of the rubber, degC; ``material`` is the rubber at it. None for a rubber that is known at one temperature only.
     """
 
     road: ArealRoad
@@ -68,6 +71,7 @@ class ArealScene:
     direction: Annotated[float, Number(unit="degrees", low=-360.0, high=360.0)] = 0.0
     aspect: Annotated[float, Number(low=0.01, high=1e6)] = ASPECT
     numerics: ArealNumerics = field(default_factory=ArealNumerics)
+    temperature: Annotated[float | None, degrees()] = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -86,6 +90,7 @@ class ArealScene:
     def parameters(self) -> dict[str, Any]:
         """Return plain nested values: numbers, words, lists."""
         numbers = {name: getattr(self, name) for name in ("velocity", "pressure", "direction", "aspect")}
+        numbers |= {} if self.temperature is None else {"temperature": self.temperature}
         parts = {"road": self.road.parameters(), "material": asdict(self.material), "numerics": asdict(self.numerics)}
         plain: dict[str, Any] = json.loads(json.dumps(numbers | parts))
         return plain
@@ -97,7 +102,8 @@ class ArealScene:
 
     @property
     def name(self) -> str:
-        """``areal_v100_p0.3_aspect0.75``, with the direction where it is not along x."""
+        """``areal_v100_p0.3_aspect0.75``; with ``_T20`` for a temperature, and the direction where it is not along x."""
         velocity, pressure, aspect = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
+        warm = "" if self.temperature is None else f"_T{checks.written(self.temperature)}"
         turned = f"_direction{checks.written(self.direction)}" if self.direction else ""
-        return f"areal_v{velocity}_p{pressure}{turned}_aspect{aspect}"
+        return f"areal_v{velocity}_p{pressure}{warm}{turned}_aspect{aspect}"

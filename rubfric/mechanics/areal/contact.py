@@ -7,42 +7,29 @@ Find the pressure p and the rigid offset d such that
 The loss makes C non-symmetric, so that no energy is minimised; it is positive definite, and the problem has one
 solution. Two methods take turns, from coarse nodes to fine:
 
-1. Block pivots (Judice and Pires 1994, Computers and Operations Research 21, 587) whose systems are solved no further
-   than each is worth, by GMRES with C^-1 among the nodes in contact for a preconditioner: in all some tens of
-   transforms from a contact nearby. They cycle where rubber is many times softer along some waves than along others.
-2. Douglas-Rachford splitting (Lions and Mercier 1979, SIAM J. Numer. Anal. 16, 964) of the problem into that without
-   the bound on p, which a Fourier transform solves, and the bound: with any step lambda it converges for every C whose
-   symmetric part is positive definite, if slowly,
-
-       x = (1 + lambda C)^-1 (z + lambda (s - d)),  mean(x) = nominal;   r = max(2 x - z, 0);   z <- z + r - x.
-
-   At the end z = p + lambda gap, which is also where it starts from.
+1. Block pivots with inexact systems (``rubfric.mechanics.areal.pivoting``): in all some tens of transforms from a
+   contact nearby. They cycle where rubber is many times softer along some waves than along others.
+2. Douglas-Rachford splitting (``rubfric.mechanics.areal.splitting``) of the problem into that without the bound on p,
+   which a Fourier transform solves, and the bound: it converges for every C, if slowly.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
 
-from rubfric.arrays import Complex, Flags, Real
+from rubfric.arrays import Flags, Real
 from rubfric.errors import NotConverged
+from rubfric.mechanics.areal.pivoting import Pivoting
+from rubfric.mechanics.areal.splitting import Splitting
 from rubfric.mechanics.areal.surface import ArealSurface
 
-# What may be left: of balance over the pressures; of contact over the largest pressure and the height of the road.
-TOLERANCE = 1e-8
 # What is left over the pressures where splitting has run as long as it may: friction has four digits then.
 LOOSE = 1e-6
-# Share of a residual that GMRES leaves in a pivoting step, and most vectors that it may hold.
-_FORCING, _MOST_KRYLOV = 0.05, 24
-# Pivoting steps in a row that need not bring the nodes that violate contact to a new low, and most steps.
-_PATIENCE, _MOST_PIVOTS = 4, 60
-# Splitting steps of the first turn, each turn having twice as many as the one before; turns.
-_FIRST_TURN, _TURNS = 64, 10
-# Lambda is doubled or halved where one of its two residuals is so many times the other.
-_UNBALANCED = 4.0
+# Splitting steps of the first turn, each turn having twice as many as the one before; turns; most steps times nodes,
+# but for the first turns.
+_FIRST_TURN, _TURNS, _MOST_WORK, _FIRST_TURNS = 64, 10, 2e9, 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,8 +117,8 @@ def solve_contact(
     if filled is not None:
         return filled
     before = (near.pivots, near.splittings) if near else (0, 0)
-    splitting = _Splitting(surface, profile, nominal, near)
-    pivoting = _Pivoting(surface, profile, nominal, before[0])
+    splitting = Splitting(surface, profile, nominal, (near.pressure, near.gap) if near else None)
+    pivoting = Pivoting(surface, profile, nominal, before[0])
 
     def found(pressure: Real) -> ArealContact:
         return _contact(surface, profile, nominal, pressure, (pivoting.steps, before[1] + splitting.steps))
@@ -142,7 +129,8 @@ def solve_contact(
             return found(pivoting.pressure)
         if splitting.run(_FIRST_TURN * 2**turn):
             return found(splitting.pressure)
-        if not np.isfinite(splitting.residual):
+        worked = splitting.steps * surface.nodes
+        if not np.isfinite(splitting.residual) or (turn >= _FIRST_TURNS and worked > _MOST_WORK):
             break
     if splitting.residual <= LOOSE:
         return found(splitting.pressure)
@@ -151,7 +139,8 @@ def solve_contact(
         splitting.steps,
         splitting.residual,
         "distance from contact over the pressures",
-        "the rubber is far softer along some waves than along others: raise the pressure, or lower numerics.nodes",
+        "at this speed the rubber is far stiffer than at rest, and nearly all loss: another speed, a higher pressure, "
+        "or fewer nodes (numerics.nodes_max) may do",
     )
 
 
@@ -164,163 +153,3 @@ def _contact(
     missed = profile - surface.deflection(pressure)
     offset = float(missed[touching].mean())
     return ArealContact(pressure, np.where(touching, 0.0, np.maximum(offset - missed, 0.0)), offset, *steps)
-
-
-@dataclass
-class _Pivoting:
-    """Block pivots; ``run`` says whether the contact that it ends at is the solution."""
-
-    surface: ArealSurface
-    profile: Real
-    nominal: float
-    steps: int
-    pressure: Real = field(init=False)
-
-    def run(self, pressure: Real) -> bool:
-        """Pivot from the nodes on which a pressure is positive.
-
-        Parameters
-        ----------
-        pressure : ndarray, shape (ny, nx)
-            MPa.
-        """
-        touching, best, patience = pressure > 0.0, self.surface.nodes + 1, _PATIENCE
-        height = float(np.ptp(self.profile))
-        for _ in range(_MOST_PIVOTS):
-            self.steps += 1
-            pressure, left = self._held(pressure, touching)
-            missed = self.profile - self.surface.deflection(pressure)
-            gap = missed[touching].mean() - missed
-            pulls = touching & (pressure < -TOLERANCE * pressure.max())
-            pierces = ~touching & (gap < -TOLERANCE * height)
-            violated = pulls | pierces
-            count = int(np.count_nonzero(violated))
-            if not np.isfinite(left) or not np.isfinite(gap).all():
-                return False
-            if count == 0 and left <= TOLERANCE:
-                self.pressure = pressure
-                return True
-            if count < best:
-                best, patience = count, _PATIENCE
-            elif count and patience == 0:
-                return False
-            patience -= 1
-            touching = touching ^ violated
-            if not touching.any():
-                return False
-        return False
-
-    def _held(self, pressure: Real, touching: Flags) -> tuple[Real, float]:
-        """Return pressures on the nodes in contact that hold them on the road better, and the residual left.
-
-        The preconditioner is the saddle of load, offset and C^-1 among the nodes (Keller, Gould and Wathen 2000, SIAM
-        J. Matrix Anal. Appl. 21, 1300): corrections carry no load, and a height that all nodes miss alike needs none.
-        """
-        even = self.surface.pressing(touching.astype(float))[touching]
-        even /= even.sum()
-
-        def spread(values: Real) -> Real:
-            everywhere = np.zeros(self.surface.shape)
-            everywhere[touching] = values
-            return everywhere
-
-        def corrected(missed: Real) -> Real:
-            found = self.surface.pressing(missed)[touching]
-            return found - even * found.sum()
-
-        def applied(values: Real) -> Real:
-            return corrected(self.surface.deflection(spread(values)) * touching)
-
-        inside = pressure[touching]
-        inside += even * (self.nominal * self.surface.nodes - inside.sum())
-        missed = (self.profile - self.surface.deflection(spread(inside))) * touching
-        right = corrected(missed)
-        size = float(np.linalg.norm(inside))
-        change, left = _reduced(applied, right, max(_FORCING * float(np.linalg.norm(right)), 0.5 * TOLERANCE * size))
-        return spread(inside + change), left / size
-
-
-def _reduced(applied: Callable[[Real], Real], right: Real, target: float) -> tuple[Real, float]:
-    """Return x that GMRES finds with few vectors, and the norm of A x - b that is left.
-
-    Parameters
-    ----------
-    applied : callable
-        A x, shape (m,), of x.
-    right : ndarray, shape (m,)
-        b.
-    target : float
-        Norm that is small enough.
-    """
-    left = size = float(np.linalg.norm(right))
-    most = min(_MOST_KRYLOV, len(right) - 1)
-    if not target < left < np.inf or most < 1:
-        return np.zeros_like(right), left
-    basis, projected = [right / size], np.zeros((most + 1, most))
-    weights = np.zeros(0)
-    for step in range(most):
-        vector = applied(basis[step])
-        for known, part in enumerate(basis):
-            projected[known, step] = part @ vector
-            vector -= projected[known, step] * part
-        length = float(np.linalg.norm(vector))
-        projected[step + 1, step] = length
-        system, goal = projected[: step + 2, : step + 1], np.eye(step + 2)[0] * size
-        weights = np.linalg.lstsq(system, goal, rcond=None)[0]
-        left = float(np.linalg.norm(system @ weights - goal))
-        if left <= target or not length > 0.0:
-            break
-        basis.append(vector / length)
-    change = np.zeros_like(right)
-    for weight, part in zip(weights, basis, strict=False):
-        change += weight * part
-    return change, left
-
-
-class _Splitting:
-    """Douglas-Rachford splitting; ``run`` says whether its pressure is the solution."""
-
-    def __init__(self, surface: ArealSurface, profile: Real, nominal: float, near: ArealContact | None) -> None:
-        self._surface, self._nominal = surface, nominal
-        self._profile = fft.rfft2(profile)
-        self.steps, self.residual = 0, np.inf
-        if near is None:
-            self.pressure, gap = np.full(surface.shape, nominal), np.maximum(-profile + profile.mean(), 0.0)
-        else:
-            self.pressure, gap = near.pressure, near.gap
-        # The pressures and lambda times the gaps weigh alike.
-        self._step = float(np.linalg.norm(self.pressure) / np.linalg.norm(gap)) if gap.any() else self._stiffest()
-        self._state = self.pressure + self._step * gap
-
-    def _stiffest(self) -> float:
-        return float(1.0 / np.abs(self._surface.compliance[self._surface.compliance != 0.0]).min())
-
-    def run(self, steps: int) -> bool:
-        """Take so many steps, or fewer."""
-        resolvent = self._resolvent()
-        for _ in range(steps):
-            series = fft.rfft2(self._state)
-            series += self._step * self._profile
-            series *= resolvent
-            series[0, 0] = self._nominal * self._surface.nodes
-            free = fft.irfft2(series, self._surface.shape, overwrite_x=True)
-            bound = np.maximum(2.0 * free - self._state, 0.0)
-            away = bound - free
-            size, dual = float(np.linalg.norm(bound)), float(np.linalg.norm(self._state - free))
-            change = float(np.linalg.norm(bound - self.pressure)) / (dual or 1.0)
-            self._state += away
-            self.pressure, self.steps = bound, self.steps + 1
-            self.residual = max(float(np.linalg.norm(away)) / size, change * dual / size)
-            if not self.residual > TOLERANCE:
-                return bool(np.isfinite(self.residual))
-            if self.steps & (self.steps - 1) == 0 and self.steps >= 8:
-                primal = float(np.linalg.norm(away)) / size
-                factor = 0.5 if primal > _UNBALANCED * change else 2.0 if change > _UNBALANCED * primal else 1.0
-                if factor != 1.0:
-                    self._state = bound + factor * (self._state - bound)
-                    self._step *= factor
-                    resolvent = self._resolvent()
-        return False
-
-    def _resolvent(self) -> Complex:
-        return 1.0 / (1.0 + self._step * self._surface.compliance)

@@ -12,7 +12,8 @@ from scipy import fft
 from rubfric.arrays import Complex, Real
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.areal.compliance import ArealCompliance
-from rubfric.mechanics.areal.contact import TOLERANCE, ArealContact, solve_contact
+from rubfric.mechanics.areal.contact import ArealContact, solve_contact
+from rubfric.mechanics.areal.surface import TOLERANCE
 from rubfric.mechanics.steady.energies import ROUND_OFF, disagreement
 from rubfric.road.areal import ArealSpectrum
 from rubfric.scene.areal import ArealScene

@@ -13,6 +13,9 @@ from scipy import fft
 
 from rubfric.arrays import Complex, Real
 
+# What contact may miss: of balance over the pressures; of contact over the largest pressure and the height of the road.
+TOLERANCE = 1e-8
+
 
 class ArealSurface:
     """A surface that yields to pressures linearly, in the frame of the road.
