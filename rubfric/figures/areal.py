@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import style
 
-_MAPS_HEIGHT, _CURVES_HEIGHT = 1.75, 2.2
-_ROAD, _PRESSURE = "Greys_r", "inferno"
+_MAPS_HEIGHT, _CURVES_HEIGHT = 2.1, 2.2
+_ROAD, _PRESSURE = "Greys_r", "plasma"
 _LINES = (
     ("friction_coefficient", "persson_friction", "persson_friction_reduced", "friction coefficient (-)"),
     ("contact_fraction", "persson_contact_fraction", "", "contact area over nominal (-)"),
@@ -35,8 +36,8 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
     Returns
     -------
     matplotlib.figure.Figure
-        Heights of the road are grey, the higher the lighter; contact pressures are coloured, on one scale. Bars are
-        estimated errors, full lines Persson 2001 and dotted ones Persson 2006.
+        Heights of the road are grey, the higher the lighter; contact pressures are coloured, on one logarithmic scale.
+        Bars are estimated errors, full lines Persson 2001 and dotted ones Persson 2006.
 
     Raises
     ------
@@ -65,19 +66,20 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
     largest = max(
         float(np.quantile(one.contact_pressure.values[one.contact_pressure.values > 0.0], 0.98)) for one in maps
     )
+    norm = LogNorm(min(float(one.attrs["pressure"]) for one in maps), largest)
     for axes, result in zip(panels, maps, strict=True):
         spacing = [float(result[name][1] - result[name][0]) for name in ("x", "y")]
         extent = (0.0, spacing[0] * result.sizes["x"], 0.0, spacing[1] * result.sizes["y"])
         axes.imshow(result.road_height, origin="lower", extent=extent, cmap=_ROAD, alpha=0.6)
         pressure = np.ma.masked_equal(result.contact_pressure.values, 0.0)
-        image = axes.imshow(pressure, origin="lower", extent=extent, cmap=_PRESSURE, vmin=0.0, vmax=largest)
+        image = axes.imshow(pressure, origin="lower", extent=extent, cmap=_PRESSURE, norm=norm)
         velocity, load = float(result.attrs["velocity"]), float(result.attrs["pressure"])
         share = style.percent(float(result.contact_fraction))
         axes.set_title(f"{velocity:g} mm/s, {load:g} MPa\n{share} in contact")
         axes.set_xlabel("x (mm)")
         axes.label_outer()
     panels[0].set_ylabel("y (mm)")
-    figure.colorbar(image, ax=list(panels), label="contact pressure (MPa)", extend="max", shrink=0.9)
+    figure.colorbar(image, ax=list(panels), label="contact pressure (MPa)", extend="both", shrink=0.7)
 
 
 def _draw_curve(axes: Axes, results: Sequence[xr.Dataset], names: tuple[str, ...], look: dict[str, Any]) -> None:

@@ -102,7 +102,7 @@ class ArealScene:
 
     @property
     def name(self) -> str:
-        """``areal_v100_p0.3_aspect0.75``; with ``_T20`` for a temperature, and the direction where it is not along x."""
+        """``areal_v100_p0.3_aspect0.75``, with ``_T20`` for a temperature and a direction other than x."""
         velocity, pressure, aspect = (checks.written(value) for value in (self.velocity, self.pressure, self.aspect))
         warm = "" if self.temperature is None else f"_T{checks.written(self.temperature)}"
         turned = f"_direction{checks.written(self.direction)}" if self.direction else ""
