@@ -76,6 +76,7 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
         velocity, load = float(result.attrs["velocity"]), float(result.attrs["pressure"])
         share = style.percent(float(result.contact_fraction))
         axes.set_title(f"{velocity:g} mm/s, {load:g} MPa\n{share} in contact")
+        axes.locator_params(nbins=3)
         axes.set_xlabel("x (mm)")
         axes.label_outer()
     panels[0].set_ylabel("y (mm)")

@@ -113,15 +113,25 @@ def test_square_crests_follow_johnson_greenwood_and_higginson(elastic_rubber: Ma
 
 
 def test_light_elastic_contact_grows_in_proportion(elastic_rubber: Material) -> None:
-    """A / A0 = kappa p / (E* h'), h' the root mean square of the gradient, kappa about 2 (Hyun et al. 2004)."""
+    """A / A0 = kappa p / (E* h'), h' the root mean square of the gradient.
+
+    Kappa is between sqrt(8 / pi) (Persson 2001) and sqrt(2 pi) (Bush, Gibson and Thomas 1975, Wear 35, 87), as all
+    simulations find it (Hyun, Pei, Molinari and Robbins 2004, Phys. Rev. E 70, 026117); it falls with the load.
+    """
+    kappa: list[float] = []
     modulus = float(elastic_rubber.plane_modulus(0.0, "strain").real)
-    road = replace(ROUGH, roll_off=0.5, cut_off=0.0625)
-    for share in (0.02, 0.04):
-        scene = ArealScene(road, 1.0, share * modulus * 0.25, elastic_rubber, numerics=nodes(512, 64))
+    road = replace(ROUGH, roll_off=0.5)
+    for share in (0.03, 0.06):
+        scene = ArealScene(road, 1.0, share * modulus * 0.25, elastic_rubber, numerics=nodes(256, 64))
         found = solve_areal(scene)
-        assert found.contact.fraction / share == pytest.approx(2.1, abs=0.35)
+        # Edges of contact jump from node to node: the area is too large by the order of their distance.
+        coarse, fine = (mesh.fraction for mesh in found.meshes)
+        area = 2.0 * fine - coarse
+        assert math.sqrt(8.0 / math.pi) < area / share < 1.05 * math.sqrt(2.0 * math.pi)
+        kappa.append(area / share)
         assert abs(found.friction_coefficient) < 1e-12
         assert abs(found.meshes[-1].contact) < 5e-3
+    assert 0.85 * kappa[0] < kappa[1] < kappa[0]
 
 
 def solved(road: object, rubber: Material, direction: float = 0.0) -> ArealSolution:
@@ -236,3 +246,20 @@ def test_standing_elastic_contact_is_that_of_tamaas(elastic_rubber: Material, sh
     expected = np.array(model.traction)
     np.testing.assert_allclose(found.pressure, expected, atol=2e-4 * expected.max())
     assert found.fraction == pytest.approx(float((expected > 0.0).mean()), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "pressure", "aspect"),
+    [(1e-30, 1.0, 0.75), (1e30, 1.0, 0.75), (1.0, 1e-30, 0.75), (1.0, 1e30, 0.75), (100.0, 0.3, 0.01), (1.0, 0.3, 1e6)],
+)
+def test_extremes_give_a_number_or_a_refusal(velocity: float, pressure: float, aspect: float) -> None:
+    for youngs, ratio in ((4.17, 0.49), (1e30, 0.49), (1e-30, -0.9), (4.0, -1.0 + 1e-11), (4.0, 0.5 - 1e-11)):
+        rubber = Material("r", youngs, ratio, (0.5, 0.499), (1e-3, 1e-5))
+        scene = ArealScene(ROUGH, velocity, pressure, rubber, aspect=aspect, numerics=nodes(32, 4))
+        try:
+            found = solve_areal(scene)
+        except NotConverged:  # too few nodes in contact
+            assert pressure < 1e-6 * youngs or ratio < -0.9
+            continue
+        assert 0.0 <= found.friction_coefficient < 10.0
+        assert found.contact.pressure.mean() == pytest.approx(pressure, rel=1e-9)

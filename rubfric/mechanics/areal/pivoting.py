@@ -31,7 +31,7 @@ class Pivoting:
     pressure: Real = field(init=False)
 
     def run(self, pressure: Real) -> bool:
-        """Pivot from the nodes on which a pressure is positive.
+        """Pivot from the nodes on which a pressure is positive, or from the highest.
 
         Parameters
         ----------
@@ -40,6 +40,8 @@ class Pivoting:
         """
         touching, best, patience = pressure > 0.0, self.surface.nodes + 1, _PATIENCE
         height = float(np.ptp(self.profile))
+        if not touching.any():
+            touching.flat[int(np.argmax(self.profile))] = True
         for _ in range(MOST_PIVOTS):
             self.steps += 1
             pressure, left = self._held(pressure, touching)
@@ -61,7 +63,7 @@ class Pivoting:
             patience -= 1
             touching = touching ^ violated
             if not touching.any():
-                return False
+                touching.flat[int(np.argmin(gap))] = True
         return False
 
     def _held(self, pressure: Real, touching: Flags) -> tuple[Real, float]:
@@ -85,8 +87,10 @@ class Pivoting:
         def applied(values: Real) -> Real:
             return corrected(self.surface.deflection(spread(values)) * touching)
 
-        inside = pressure[touching]
-        inside += even * (self.nominal * self.surface.nodes - inside.sum())
+        inside, load = pressure[touching], self.nominal * self.surface.nodes
+        missing = load - float(inside.sum())
+        # Pressures far beyond a light load would leave none of its digits.
+        inside = inside + even * missing if abs(missing) < load else even * load
         missed = (self.profile - self.surface.deflection(spread(inside))) * touching
         right = corrected(missed)
         size = float(np.linalg.norm(inside))

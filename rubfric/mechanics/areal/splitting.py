@@ -61,7 +61,8 @@ class Splitting:
             free = fft.irfft2(series, self._surface.shape, overwrite_x=True)
             bound = np.maximum(2.0 * free - self._state, 0.0)
             away = bound - free
-            size, dual = float(np.linalg.norm(bound)), float(np.linalg.norm(self._state - free))
+            size = float(np.linalg.norm(bound)) or self._nominal
+            dual = float(np.linalg.norm(self._state - free))
             change = float(np.linalg.norm(bound - self.pressure)) / (dual or 1.0)
             self._state += away
             self.pressure, self.steps = bound, self.steps + 1
