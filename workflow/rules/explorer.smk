@@ -3,10 +3,11 @@ EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
 }
 
-# The whole road; of random roads the first.
-EXPLORED_WHOLE = {
-    name: scene for name, scene in WHOLE.items() if name == f"{DRAW}{scene.name}"
-}
+
+
+def road_number(name):
+    """Return on which of several roads a scene is, from 1, given its name with its folder; 0 on the only one."""
+    return [*CAMPAIGN.whole_roads].index(name.split("all_")[0]) + 1 if "/" in name else 0
 
 
 rule explorer:
@@ -19,7 +20,7 @@ rule explorer:
         whole=WHOLE_COLLECTION,
         scenes=[
             *(scene_file(name) for name in EXPLORED),
-            *(whole_file(name) for name in EXPLORED_WHOLE),
+            *(whole_file(name) for name in WHOLE),
         ],
     output:
         # The report links to it: browsers show no embedded page of more than 2 MB.
@@ -33,13 +34,12 @@ rule explorer:
             "road": ROAD,
             "collected": [COLLECTED, WHOLE_COLLECTED],
             "digests": [
-                scene.digest
-                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+                scene.digest for scene in [*EXPLORED.values(), *WHOLE.values()]
             ],
             "temperatures": [
-                scene.temperature
-                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+                scene.temperature for scene in [*EXPLORED.values(), *WHOLE.values()]
             ],
+            "roads": [road_number(name) for name in [*EXPLORED, *WHOLE]],
             "shown": TEMPERATURE,
         },
     message:

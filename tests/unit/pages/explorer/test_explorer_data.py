@@ -76,8 +76,8 @@ def test_pictures_are_thinned_where_there_are_many(
     sizes = []
     for room in (400, 3):
         monkeypatch.setattr("rubfric.pages.explorer.data._ROOM", room)
-        monkeypatch.setattr("rubfric.pages.explorer.data._FEWEST", (4, 8))
-        monkeypatch.setattr("rubfric.pages.explorer.data._MOST", (10, 32))
+        monkeypatch.setattr("rubfric.pages.explorer.scenes._FEWEST", (4, 8))
+        monkeypatch.setattr("rubfric.pages.explorer.scenes._MOST", (10, 32))
         campaign = make_campaign()
         scene = payload(campaign, make_totals(campaign), [make_result()], 0.75, "road")["scenes"]["1"][0][1]
         sizes.append((scene["picture"]["rows"], scene["picture"]["columns"]))
