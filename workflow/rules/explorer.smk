@@ -4,10 +4,11 @@ EXPLORED = {
 }
 
 
-
 def road_number(name):
     """Return on which of several roads a scene is, from 1, given its name with its folder; 0 on the only one."""
-    return [*CAMPAIGN.whole_roads].index(name.split("all_")[0]) + 1 if "/" in name else 0
+    return (
+        [*CAMPAIGN.whole_roads].index(name.split("all_")[0]) + 1 if "/" in name else 0
+    )
 
 
 rule explorer:
