@@ -181,5 +181,6 @@ def _chosen(
             f"the corrected sum stands in for the whole road, which was refused: {reason or 'it was not run'}",
         )
     refused = road.count - direct.draws if direct.draws else 0
-    about = f"mean of {direct.draws} {WINDOWS if road.windows else DRAWN}" if direct.draws else ONE_ROAD
+    alone = f"the first of the {WINDOWS}" if road.windows else ONE_ROAD
+    about = f"mean of {direct.draws} {WINDOWS if road.windows else DRAWN}" if direct.draws else alone
     return "direct", refused, about + (f"; {refused} more refused: {reason}" if refused else "")

@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
-from rubfric.results.selection import RUBBER_ERROR
+from rubfric.results.selection import RUBBER_ERROR, WINDOWS
 
 # How a total was obtained, in words.
 WAYS = {
@@ -63,7 +63,7 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
         worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
         share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
         lines.append(
-            f"largest error of the whole road's friction {100.0 * share:.2g} %, {WAYS[worst['way']]}, {_point(worst)}"
+            f"largest error of the whole road's friction {100.0 * share:.2g} %, {_way(worst)}, {_point(worst)}"
         )
     refused = [row for row in rows if int(row["refused"])]
     if refused:
@@ -74,6 +74,12 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
             f"{os.fspath(path)}, column note"
         )
     return lines
+
+
+def _way(row: dict[str, str]) -> str:
+    """Return in words how a total was obtained."""
+    profile = row["way"] == "direct" and WINDOWS in row.get("note", "")
+    return "the measured profile itself" if profile else WAYS[row["way"]]
 
 
 def _point(row: dict[str, str]) -> str:
@@ -110,7 +116,7 @@ def highest(path: str | os.PathLike[str]) -> str:
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({WAYS[top['way']]})"
+        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({_way(top)})"
     )
 
 
