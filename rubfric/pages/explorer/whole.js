@@ -8,10 +8,10 @@ function drawnWords(data) {
   return data.whole?.windows ? "windows of the measured road" : "roads with random phases";
 }
 
-/** Of which road a total is. */
+/** Of which road a total is, after what it is. */
 function roadWords(data) {
   const draws = data.whole?.draws ?? 0;
-  return draws ? `mean over ${draws} ${drawnWords(data)}` : "on one road, with these phases";
+  return draws ? `, mean over ${draws} ${drawnWords(data)}` : " on one road, with these phases";
 }
 
 /** The parts of the error of a total that has several, for the words under the pointer. */
@@ -38,7 +38,7 @@ function coversTotal(data, { pressure, speed }) {
     ...share("numerical", "mesh and solver"), ...share("coupling", "what it may miss of the coupling of the scales"),
     ...share("road", data.whole?.windows ? "so few windows of the road" : "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
   ];
-  const about = taken === "direct" ? `${WAY_NAMES.direct}, ${roadWords(data)}` : WAY_NAMES[taken];
+  const about = taken === "direct" ? `${WAY_NAMES.direct}${roadWords(data)}` : WAY_NAMES[taken];
   const said = taken === "direct" ? "" : ` ${sentence(note[pressure][speed] ?? "")}`;
   return `${sentence(about)} ± covers ${covered.join(" and ") || "nothing"}.${said.trim() === "." ? "" : said}`;
 }
@@ -50,7 +50,7 @@ function coversScene(data, chosen, scene) {
   if (!scene) return reason ? sentence(reason) : "";
   const few = place === "whole" && data.whole.draws ? data.curves.whole.error[pressure][speed] - scene.error : 0;
   const parts = few > 0 ? ` (${rounded(scene.error, 2)}) and so few ${data.whole.windows ? "windows" : "random roads"} (${rounded(few, 2)})` : "";
-  return `${place === "whole" ? sentence(`${WAY_NAMES.direct}, ${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver${parts}.` +
+  return `${place === "whole" ? sentence(`${WAY_NAMES.direct}${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver${parts}.` +
     (scene.rubberError > 0 ? ` The rubber’s data leave ± ${roundedUp(scene.rubberError).text} beside that.` : "") + (place === "whole" ? roadAlone(data, chosen) : "");
 }
 
