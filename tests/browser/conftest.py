@@ -166,7 +166,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> Explored:
 
     def collected(named: dict[str, Scene], road: int) -> xr.Dataset:
         paths = {}
-        for name, scene in named.items():
+        for scene in named.values():
             refused = road == 2 and scene.velocity == 100.0
             result = refusal(scene, "it folds") if refused else rubfric.simulate(scene)
             path = folder / f"{road}{scene.name}.nc"
