@@ -17,11 +17,12 @@ from rubfric.pages.explorer.pictures import WIDER
 from rubfric.pages.explorer.roads import about, pictured, whole_error
 from rubfric.pages.explorer.scenes import ERROR, FRICTION, SCALARS, cells, numbers, pictures, plain
 from rubfric.pages.explorer.totals import WHOLE, by_way, on_axes, reasons
-from rubfric.results.selection import check_variables, find_peak, position
+from rubfric.results.selection import DRAWS, check_variables, find_peak, position
 
 _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
-# Of how many pictures the most nodes are kept, so that the page stays below 10 MB.
-_ROOM = 400
+# Of how many pictures the most nodes are kept, so that the page stays below 8 MB; of several roads, whose pictures are
+# larger than their weight, of half as many.
+_ROOM = 340
 
 
 def payload(
@@ -80,7 +81,8 @@ def payload(
         found["refusals"] = reasons(whole, axes)
     count = sum(cell is not None for name, rows in scenes.items() if name != WHOLE for row in rows for cell in row)
     count += 0 if whole is None else WIDER * pictured(placed, FRICTION)
-    thinned = min(1.0, math.sqrt(share * _ROOM / count))
+    several = whole is not None and DRAWS in whole
+    thinned = min(1.0, math.sqrt(share * _ROOM * (0.5 if several else 1.0) / count))
     store, energies, roads, refused = pictures(results, axes, scenes, aspect, thinned)
     if whole is not None:
         found[WHOLE] = about(whole, roads, refused)
