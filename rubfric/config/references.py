@@ -91,6 +91,8 @@ def references(sections: Mapping[str, Any]) -> list[str]:
         for key, number in _scales(sections):
             road = sections["roads"][sections["road"]]
             look(scale_number, key, number, road.scales if isinstance(road, MeasuredRoad) else len(road))
+        if "phases" in sections:
+            look(_phases, sections["road"], sections["roads"], sections["phases"].draws)
     known = not any(fault.startswith("rubber ") for fault in found)
     if known and {"rubber", "rubbers", "grid"} <= set(sections):
         rubber = sections["rubber"]
@@ -100,6 +102,16 @@ def references(sections: Mapping[str, Any]) -> list[str]:
     if sections.get("grid") and sections.get("figures"):
         look(_on_grid, sections["grid"], sections["figures"])
     return found
+
+
+def _phases(name: str, roads: Mapping[str, Any], draws: int) -> None:
+    """Windows of a measured profile have the phases that they have."""
+    road = roads[name]
+    if isinstance(road, MeasuredRoad) and road.windows and draws:
+        raise InvalidInput(
+            f"phases.draws is {draws}, but must be 0 where roads.{name} has windows, which are several roads already: "
+            "without windows its sines have random phases"
+        )
 
 
 def _scales(sections: Mapping[str, Any]) -> list[tuple[str, int]]:
