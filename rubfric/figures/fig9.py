@@ -176,7 +176,7 @@ def _covers(totals: pd.DataFrame) -> str:
     """Return what the error of totals covers besides that of mesh, solver and models."""
     parts = {"friction_road_error": "the road", RUBBER_PART: "the rubber's data"}
     known = [words for name, words in parts.items() if name in totals and totals[name].notna().any()]
-    return f", from {' and '.join(known)} too" if known else ""
+    return f", that from {' and '.join(known)} included" if known else ""
 
 
 def _kinds(points: pd.DataFrame, covers: str) -> list[Line2D]:
