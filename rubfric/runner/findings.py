@@ -49,8 +49,8 @@ def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
         return []
     carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
-        *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
-        *([f"beside that at most {100.0 * data:.2g} % from the data of the rubber"] if data >= 0.0 else []),
+        *([f"largest estimated error of friction {_percent(worst)}, {where}"] if where else []),
+        *([f"beside that at most {_percent(data)} from the data of the rubber"] if data >= 0.0 else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 
@@ -63,7 +63,7 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
         worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
         share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
         lines.append(
-            f"largest error of the whole road's friction {100.0 * share:.2g} %, {_way(worst)}, {_point(worst)}"
+            f"largest error of the whole road's friction {_percent(share)}, {_way(worst)}, {_point(worst)}"
         )
     refused = [row for row in rows if int(row["refused"])]
     if refused:
@@ -74,6 +74,10 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
             f"{os.fspath(path)}, column note"
         )
     return lines
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.{2 if share < 0.995 else 3}g} %"
 
 
 def _way(row: dict[str, str]) -> str:
