@@ -126,7 +126,7 @@ def part_handles(values: Array, parts: Mapping[str, Array]) -> list[Patch]:
     for (words, error), opacity in zip(parts.items(), _opacities(len(parts)), strict=True):
         known = shown & np.isfinite(error)
         most = f",\nat most {percent(float(np.max(np.abs(error[known] / values[known]))))}" if known.any() else ""
-        label = f"error from {words}{most}" if not handles else f"and from {words}{most}"
+        label = f"{'+' if handles else 'error:'} {words}{most}"
         handles.append(Patch(facecolor="black", alpha=opacity, linewidth=0.0, label=label))
     return handles
 

@@ -70,7 +70,7 @@ def draw(
     axes[0].set_xlabel("sliding speed $v$ (mm/s)")
     axes[1].set_xlabel("reduced speed $a_T v$ (mm/s)")
     axes[0].set_ylabel("friction coefficient (-)")
-    handles = panels.line_handles([written(one) for one in found], looks)
+    handles = panels.line_handles([written(one).replace("-", "\N{MINUS SIGN}") for one in found], looks)
     title = f"temperature (°C),\nat {written(pressure)} MPa"
     panels.legend_beside(figure, [*handles, band_handle(total, error)], title)
     moduli = [factors[one][1] for one in found]

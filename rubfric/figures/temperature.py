@@ -10,7 +10,9 @@ from rubfric.results.selection import written
 
 def temperature_words(temperature: float | None) -> list[str]:
     """Return the sentence of a note on a temperature in degC; none where there is none."""
-    return [] if temperature is None else [f"Rubber at {written(temperature)} °C."]
+    if temperature is None:
+        return []
+    return [f"Rubber at {written(temperature)} °C.".replace("-", "\N{MINUS SIGN}")]
 
 
 def name_temperature(figure: Figure, temperature: float | None) -> Figure:

@@ -62,9 +62,7 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
     if known:
         worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
         share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
-        lines.append(
-            f"largest error of the whole road's friction {_percent(share)}, {_way(worst)}, {_point(worst)}"
-        )
+        lines.append(f"largest error of the whole road's friction {_percent(share)}, {_way(worst)}, {_point(worst)}")
     refused = [row for row in rows if int(row["refused"])]
     if refused:
         named = "; ".join(_point(row).removeprefix("at ") for row in refused[:_MOST_NAMED])

@@ -3,9 +3,9 @@
 
 const THIN = "\u202f"; // narrow space that does not break
 
-/** A number as in the figures: 0.1, 10, 1000, 10 000. */
+/** A number as in the figures: 0.1, 10, 1000, 10 000, −5. */
 function plain(value) {
-  const text = String(Number(value.toPrecision(12)));
+  const text = String(Number(value.toPrecision(12))).replace("-", "−");
   if (text.includes("e") || Math.abs(value) < 10000) return text;
   const [whole, fraction] = text.split(".");
   const grouped = whole.replace(/\B(?=(\d{3})+$)/g, THIN);

@@ -47,9 +47,9 @@ def test_parts_of_an_error_lie_outside_of_each_other_and_are_paler() -> None:
         assert heights.max() == pytest.approx((1.0 + share) * 0.5)
     handles = part_handles(values, parts)
     assert [one.get_label() for one in handles] == [
-        "error from mesh and solver,\nat most 2\N{NO-BREAK SPACE}%",
-        "and from so few windows,\nat most 10\N{NO-BREAK SPACE}%",
-        "and from the rubber's data,\nat most 5\N{NO-BREAK SPACE}%",
+        "error: mesh and solver,\nat most 2\N{NO-BREAK SPACE}%",
+        "+ so few windows,\nat most 10\N{NO-BREAK SPACE}%",
+        "+ the rubber's data,\nat most 5\N{NO-BREAK SPACE}%",
     ]
     # Where bands lie on one another they are as dark as the legend says.
     clear = np.cumprod([1.0 - (one.get_alpha() or 0.0) for one in (outer, middle, inner)])
