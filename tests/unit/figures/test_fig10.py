@@ -60,11 +60,8 @@ def test_bands_of_a_measured_road_and_rubber_are_apart(
     table["friction_rubber_error"] = 0.2 * table["friction_direct"]
     for name in ("friction_total_error", "friction_direct_error"):
         table[name] += table["friction_rubber_error"]
-    for figure in (
-        fig10.draw(table, [0.5, 5.0]),
-        fig10.draw(table, [5.0]),
-        fig7.draw(make_campaign(), table, 0.75, 5.0),
-    ):
+    drawn = [fig10.draw(table, [0.5, 5.0]), fig10.draw(table, [5.0]), fig7.draw(make_campaign(), table, 0.75, 5.0)]
+    for figure in drawn:
         said = words(figure)
         assert any("the profile itself" in one and one.endswith("mean of 3 windows") for one in said)
         assert "sum of its sines" in said
