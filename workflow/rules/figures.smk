@@ -38,20 +38,15 @@ WINDOWS = DRAW.startswith("window")
 DRAWN_KIND = "windows" if WINDOWS else "random roads"
 
 
-def ends(values):
-    """Return the least and the largest."""
-    return min(values), max(values)
-
-
 SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
     if name == f"{DRAW}{scene.name}"
     and scene.temperature == TEMPERATURE
     and scene.pressure
-    in (ends(SHOWN.pressures) if WINDOWS else sorted(SHOWN.pressures)[:2])
+    in (extremes(SHOWN.pressures) if WINDOWS else sorted(SHOWN.pressures)[:2])
     and scene.velocity
-    in (ends(SHOWN.velocities) if WINDOWS else sorted(SHOWN.velocities)[-3:])
+    in (extremes(SHOWN.velocities) if WINDOWS else sorted(SHOWN.velocities)[-3:])
 }
 # Made before Snakemake looks for them: of files that appear while it does it would know nothing.
 DRAWN_BY = {
