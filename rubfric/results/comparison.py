@@ -4,54 +4,29 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
 from rubfric.checks import written
 from rubfric.results.difference import PARTS, Friction, Interval, difference, interval
-from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WORDS
-from rubfric.results.temperature import AXIS, COLUMN
+from rubfric.results.scales import AXES, ONE_ROAD, RUBBER_PART, TOTAL, WORDS
+from rubfric.results.temperature import COLUMN
 
 # Columns of the two tables that are text.
 NAMES = ("rubber", "road", "way", "note", "not_covered")
 RANKED = ("compared", "on", "first", "second", "verdict", "words", "not_covered")
 # Verdicts.
 FIRST, SECOND, EQUAL, UNKNOWN = "first grips more", "second grips more", "cannot be told apart", "not known"
-_ONE_ROAD = "friction_direct_"
 _PARTS = ("friction_numerical_error", "friction_coupling_error", "friction_road_error", RUBBER_PART)
 _HALVES = tuple(f"{part}_ci95" for part in PARTS)
 # Of a point at which a pair has no row.
 _NOTHING = Friction(np.nan, np.nan, np.nan, np.nan, np.empty(0))
 Tables = Mapping[tuple[str, str], pd.DataFrame]
-
-
-def road_by_road(table: pd.DataFrame, roads: Sequence[xr.Dataset]) -> pd.DataFrame:
-    """Return a table of totals with the direct friction of every road with random phases, or window, in a column.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        As from ``rubfric.results.totals.total_tables``.
-    roads : sequence of xarray.Dataset
-        Of each road, as from ``rubfric.results.campaign.collect``.
-
-    Returns
-    -------
-    pandas.DataFrame
-        With the columns ``friction_direct_1``, ...; NaN where a road was refused or not needed.
-    """
-    axes = dict(zip(("velocity", "pressure"), AXES, strict=True)) | ({AXIS: COLUMN} if COLUMN in table else {})
-    points = {axis: xr.DataArray(table[column].to_numpy(), dims="row") for axis, column in axes.items()}
-    found = {
-        f"{_ONE_ROAD}{number}": one["friction_coefficient"].isel(scale=0, aspect=0).sel(points).to_numpy()
-        for number, one in enumerate(roads, 1)
-    }
-    return table.assign(**found)
 
 
 def comparison_table(tables: Tables, not_covered: Mapping[tuple[str, str], Sequence[str]]) -> pd.DataFrame:
@@ -60,7 +35,7 @@ def comparison_table(tables: Tables, not_covered: Mapping[tuple[str, str], Seque
     Parameters
     ----------
     tables : mapping of (str, str) to pandas.DataFrame
-        By rubber and road, as from ``road_by_road``.
+        By rubber and road, as from ``rubfric.results.pair.road_by_road``.
     not_covered : mapping of (str, str) to sequence of str
         What no error of a pair covers.
 
@@ -119,10 +94,35 @@ def ranking_table(tables: Tables, not_covered: Mapping[tuple[str, str], Sequence
                 | {"words": _words(compared, on, (first, second), found, verdict, at), "not_covered": without}
             )
     table = pd.DataFrame(rows)
-    order = [*_axes(table)[1:], "compared", "on"]
-    return table.assign(compared=pd.Categorical(table["compared"], ["rubbers", "roads"])).sort_values(
-        order, kind="stable", ignore_index=True
-    )
+    return table.sort_values([AXES[1], *_axes(table)[2:]], kind="stable", ignore_index=True)
+
+
+def headlines(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return in a sentence each how often which of two rubbers grips more on a road, and likewise of roads.
+
+    Parameters
+    ----------
+    rows : iterable of mapping
+        Those of a ranking.
+    """
+    counts: dict[tuple[str, str, str, str], Counter[str]] = {}
+    for row in rows:
+        counts.setdefault((row["compared"], row["on"], row["first"], row["second"]), Counter())[row["verdict"]] += 1
+    return [_headline(*pair, count) for pair, count in counts.items()]
+
+
+def _headline(compared: str, on: str, first: str, second: str, count: Counter[str]) -> str:
+    more, less = (first, second) if count[FIRST] >= count[SECOND] else (second, first)
+    most, least = sorted((count[FIRST], count[SECOND]), reverse=True)
+    where = f"on {on}" if compared == "rubbers" else f"under {on}"
+    if not most:
+        return f"{more} and {less} cannot be told apart {where} at any of {count.total()} points"
+    whom = f"{more} grips more than {less} {where}"
+    if compared == "roads":
+        whom = f"{on} grips more on {more} than on {less}"
+    others = [(least, "less"), (count[EQUAL], "neither for certain"), (count[UNKNOWN], "not known")]
+    rest = "".join(f", {what} at {number}" for number, what in others if number)
+    return f"{whom} at {most} of {count.total()} points{rest}"
 
 
 def _compared(tables: Tables) -> Iterator[tuple[str, str, str, str, tuple[str, str], tuple[str, str]]]:
@@ -151,7 +151,7 @@ def _at(row: Mapping[str, Any]) -> tuple[float, ...]:
 
 def _friction(row: Mapping[str, Any]) -> Friction:
     """Return the friction of a row of a table of totals; its roads one by one where the total is their mean."""
-    roads = [value for name, value in row.items() if re.fullmatch(rf"{_ONE_ROAD}\d+", name) and row["way"] == "direct"]
+    roads = [value for name, value in row.items() if re.fullmatch(rf"{ONE_ROAD}\d+", name) and row["way"] == "direct"]
     value, numerical, coupling = (float(row[name]) for name in (TOTAL[0], *_PARTS[:2]))
     return Friction(value, numerical, coupling, float(row.get(RUBBER_PART, np.nan)), np.array(roads, dtype=np.float64))
 

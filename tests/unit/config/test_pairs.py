@@ -57,7 +57,9 @@ def test_faults_of_all_rubbers_and_roads_are_named_each_once() -> None:
         "rubbers.x.measurements is 'x.csv'",
         "rubbers.y.measurements is 'y.csv'",
     ]
-    with pytest.raises(InvalidInput, match=r"20 degC, but rubber soft is known at one temperature only: .*rubbers.soft"):
+    with pytest.raises(
+        InvalidInput, match=r"20 degC, but rubber soft is known at one temperature only: .*rubbers.soft"
+    ):
         load(OWN, {"rubber": ["shifted", "soft"], "rubbers": {"shifted": SHIFTED}, "grid": {"temperatures": [20]}})
     steep = {"roads": {"steep": [{"amplitude": 10, "wavelength": 0.1}]}}
     with pytest.raises(InvalidInput) as caught:

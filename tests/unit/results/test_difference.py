@@ -9,8 +9,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from rubfric.results.comparison import EQUAL, FIRST, SECOND, UNKNOWN, comparison_table, ranking_table, road_by_road
+from rubfric.results.comparison import EQUAL, FIRST, SECOND, UNKNOWN, comparison_table, ranking_table
 from rubfric.results.difference import Friction, difference, interval
+from rubfric.results.pair import road_by_road
 
 # Student's t at 97.5 % of 5 and of 10 degrees of freedom, from tables.
 T_5, T_10 = 2.5706, 2.2281
