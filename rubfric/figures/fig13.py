@@ -94,7 +94,9 @@ def draw(comparison: pd.DataFrame, ranking: pd.DataFrame, pressures: Sequence[fl
         Line2D([], [], label="cannot be told apart", **_APART),
     ]
     panels.legend_above(figure, [*handles, *marks], None, 6 if figure.get_figwidth() > style.COLUMN else 3)
-    panels.write_note(figure, [f"Strips: the mark of the {of} that grips more of two, with 95 % confidence."])
+    others = " Roads are compared in the table of the ranking." if of == "rubber" and len(places) > 1 else ""
+    note = f"Strips: the mark of the {of} that grips more of two, with 95 % confidence.{others}"
+    panels.write_note(figure, [note])
     return figure
 
 

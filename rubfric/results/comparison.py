@@ -174,22 +174,23 @@ def _words(
     if verdict == UNKNOWN:
         return f"{first} and {second} are not compared {where} {at}, since a total is missing"
     if verdict == EQUAL:
-        error = f"the difference is {size} ± {half}" if half else "the error of the difference is not known"
+        error = f"they differ by {size} ± {half}" if half else "the error of the difference is not known"
         return f"{first} and {second} cannot be told apart {where} {at}: {error}"
     more, less = names if verdict == FIRST else (second, first)
-    by = f"{at}, by {size.removeprefix('-')} ± {half}"
+    by = f"{at}, by {size} ± {half}"
     if compared == "rubbers":
         return f"{more} grips more than {less} {where} {by}"
     return f"{on} grips more on {more} than on {less} {by}"
 
 
 def _digits(found: Interval) -> tuple[str, str]:
-    """Return a difference and its half-width with two digits of the latter, which is empty where it is not known."""
-    if math.isnan(found.half):
-        return f"{found.value:.3g}", ""
-    size = found.half or abs(found.value)
+    """Return the size of a difference and its half-width, two digits of it; that is empty where it is not known."""
+    value, half = abs(found.value), found.half
+    if math.isnan(half):
+        return f"{value:.3g}", ""
+    size = half or value
     places = max(1 - math.floor(math.log10(size)), 0) if size else 0
-    return f"{found.value:.{places}f}", f"{found.half:.{places}f}"
+    return f"{value:.{places}f}", f"{half:.{places}f}"
 
 
 def _place(point: tuple[float, ...]) -> str:

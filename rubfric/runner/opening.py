@@ -119,7 +119,7 @@ def _others(campaign: Campaign) -> list[str]:
         f"{which(campaign)}: all tables and figures but the comparison are of it; name another first to draw its own",
         *(line for one in fitted.values() for line in _fit(one)),
         *(line for one in surveyed.values() for line in _survey(one)),
-        f"the {_many(len(campaign.others), 'other pair')}: {', '.join(parts)}",
+        f"{_many(len(campaign.others), 'other pair')}: {', '.join(parts)}",
     ]
 
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 
-from rubfric.results.comparison import EQUAL, FIRST, SECOND, UNKNOWN, comparison_table, ranking_table
+from rubfric.errors import BrokenResult
+from rubfric.results.comparison import EQUAL, FIRST, SECOND, UNKNOWN, comparison_table, headlines, ranking_table
 from rubfric.results.difference import Friction, difference, interval
-from rubfric.results.pair import road_by_road
+from rubfric.results.pair import read_pair, road_by_road
+from rubfric.results.tables import write_table
 
 # Student's t at 97.5 % of 5 and of 10 degrees of freedom, from tables.
 T_5, T_10 = 2.5706, 2.2281
@@ -97,9 +100,7 @@ def test_tables_say_who_grips_more() -> None:
     assert street["words"] == "a grips more than b on street at 100 mm/s and 0.3 MPa, by 0.1100 ± 0.0077"
     assert (street["verdict"], street["not_covered"], street["roads"]) == (FIRST, "data of rubber a", 2)
     assert track["verdict"] == EQUAL
-    assert track["words"].startswith(
-        "a and b cannot be told apart on track at 100 mm/s and 0.3 MPa: the difference is "
-    )
+    assert track["words"].startswith("a and b cannot be told apart on track at 100 mm/s and 0.3 MPa: they differ by 0.")
     # Two windows of each road say next to nothing about roads: t of one degree of freedom.
     assert at.loc[("roads", "a")]["verdict"] == EQUAL
     # One total in place of the other's windows: those of the other count alone.
@@ -119,6 +120,26 @@ def test_comparison_has_every_pair_with_its_interval() -> None:
     assert table["friction_total_ci95"].iloc[0] == pytest.approx(math.hypot(0.005, 12.706 * 0.1), rel=1e-3)
     assert table["friction_total_ci95"].iloc[2] == pytest.approx(0.013)
     assert table["roads"].tolist() == [2, 0, 0, 0]
+
+
+def test_counts_of_verdicts_are_said() -> None:
+    pair = {"compared": "rubbers", "on": "street", "first": "a", "second": "b"}
+    roads = {"compared": "roads", "on": "a", "first": "street", "second": "track"}
+    verdicts = [FIRST, SECOND, SECOND, EQUAL, UNKNOWN]
+    rows = [*(pair | {"verdict": one} for one in verdicts), *(roads | {"verdict": one} for one in (FIRST, FIRST))]
+    assert headlines([*rows, pair | {"on": "track", "verdict": EQUAL}]) == [
+        "b grips more than a on street at 2 of 5 points, less at 1, neither for certain at 1, not known at 1",
+        "a grips more on street than on track at 2 of 2 points",
+        "a and b cannot be told apart on track at any of 1 points",
+    ]
+
+
+def test_table_of_other_scenes_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "friction_total.csv"
+    write_table(totals(0.5).assign(collected="0123"), path)
+    assert read_pair(path, "0123")["friction_total"].iloc[0] == 0.5
+    with pytest.raises(BrokenResult, match=r"friction_total.csv is made of other scenes than this campaign's; delete"):
+        read_pair(path, "123")
 
 
 def test_each_road_has_its_column() -> None:
