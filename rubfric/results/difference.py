@@ -1,20 +1,21 @@
 """The difference of two frictions and its 95 % confidence interval; window by window where they share their windows.
 
-Every part of an error is brought to a half-width at 95 %, and the parts are added in squares:
+Every part of an error is brought to a half-width at 95 %, and the parts are added in squares. Where they are of means of
+few values, each with Student's t of its own, such an interval covers the difference in at least 95 % of cases (Banerjee,
+Approximate confidence interval for linear functions of means of k populations, Sankhya 22, 357, 1960).
 
 * numerics and coupling of each friction: their estimates, which cover the true error in 95 % of cases and more. One
   rule makes both meshes, so that errors of one sign cancel; adding squares then says too much rather than too little.
 * the rubber's data: the 95 % band. Two rubbers were measured independently of one another. Under one rubber both
   frictions change together, by how much is not known: there the sum of the two bounds whatever they do.
-* the road: of n roads with random phases, or windows, t_(n-1) s / sqrt(n) with Student's t. On one road two rubbers
-  slide over the same windows, and s is the standard deviation of the n differences: what the windows have in common
-  drops out. Two roads are independent, and Welch's degrees of freedom count.
+* the road: of n roads with random phases, or windows, t_(n-1) s / sqrt(n). On one road two rubbers slide over the same
+  windows, and s is the standard deviation of the n differences: what the windows have in common drops out. Two roads
+  are independent of one another.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -66,7 +67,7 @@ class Interval(NamedTuple):
 def interval(one: Friction) -> Interval:
     """Return a friction with its 95 % interval; what is not known of the rubber's data is left out."""
     rubber = 0.0 if math.isnan(one.rubber) else one.rubber
-    parts = (one.numerical, one.coupling, _independent([one.solved]), rubber)
+    parts = (one.numerical, one.coupling, _of_road(one.solved), rubber)
     return _interval(one.value, parts, one.solved.size)
 
 
@@ -97,7 +98,7 @@ def difference(first: Friction, second: Friction, same_road: bool) -> Interval:
     parts = (
         math.hypot(first.numerical, second.numerical),
         math.hypot(first.coupling, second.coupling),
-        _independent(roads),
+        math.hypot(*map(_of_road, roads)),
         rubber,
     )
     return _interval(value, parts, min(each.size for each in roads))
@@ -108,12 +109,8 @@ def _interval(value: float, parts: tuple[float, float, float, float], roads: int
     return Interval(value, math.hypot(*parts), numerical, coupling, road, rubber, roads)
 
 
-def _independent(samples: Sequence[Real]) -> float:
-    """Return the half-width of the 95 % interval of a sum or difference of means; 0 without any scatter."""
-    found = [(float(each.var(ddof=1)) / each.size, each.size - 1) for each in samples if each.size > 1]
-    variance = sum(one for one, _ in found)
-    if variance <= 0.0:
+def _of_road(roads: Real) -> float:
+    """Return the half-width of the 95 % interval of the mean over some roads; 0 for fewer than two."""
+    if roads.size < 2:
         return 0.0
-    # Relative, so that no square underflows.
-    freedom = 1.0 / sum((one / variance) ** 2 / degrees for one, degrees in found)
-    return float(stdtrit(freedom, _QUANTILE)) * math.sqrt(variance)
+    return float(stdtrit(roads.size - 1, _QUANTILE)) * float(roads.std(ddof=1)) / math.sqrt(roads.size)
