@@ -1,8 +1,8 @@
 """The difference of two frictions and its 95 % confidence interval; window by window where they share their windows.
 
-Every part of an error is brought to a half-width at 95 %, and the parts are added in squares. Where they are of means of
-few values, each with Student's t of its own, such an interval covers the difference in at least 95 % of cases (Banerjee,
-Approximate confidence interval for linear functions of means of k populations, Sankhya 22, 357, 1960).
+Every part of an error is brought to a half-width at 95 %, and the parts are added in squares. Where they are of means
+of few values, each with Student's t of its own, such an interval covers the difference in at least 95 % of cases
+(Banerjee, Approximate confidence interval for linear functions of means of k populations, Sankhya 22, 357, 1960).
 
 * numerics and coupling of each friction: their estimates, which cover the true error in 95 % of cases and more. One
   rule makes both meshes, so that errors of one sign cancel; adding squares then says too much rather than too little.
