@@ -43,7 +43,7 @@ def comparison_table(tables: Tables, not_covered: Mapping[tuple[str, str], Seque
     -------
     pandas.DataFrame
         ``friction_total_error`` and its parts are those of the table of totals; ``friction_total_ci95`` is the
-        half-width of the 95 % interval that they make together, and ``roads`` how many roads with random phases, or
+        half-width of the 95 % interval that they make together, and ``draws`` how many roads with random phases, or
         windows, the total is the mean of.
     """
     found = []
@@ -51,12 +51,12 @@ def comparison_table(tables: Tables, not_covered: Mapping[tuple[str, str], Seque
         intervals = [interval(_friction(row)) for row in _rows(table)]
         columns = [*_axes(table), *TOTAL, *(name for name in (*_PARTS, *WORDS) if name in table)]
         own = table[columns].assign(friction_total_ci95=[one.half for one in intervals])
-        own = own.assign(roads=[one.roads for one in intervals], not_covered="; ".join(not_covered[rubber, road]))
+        own = own.assign(draws=[one.roads for one in intervals], not_covered="; ".join(not_covered[rubber, road]))
         own.insert(0, "road", road)
         own.insert(0, "rubber", rubber)
         found.append(own)
     together = pd.concat(found, ignore_index=True)
-    last = ["friction_total_ci95", "roads", *WORDS, "not_covered"]
+    last = ["friction_total_ci95", "draws", *WORDS, "not_covered"]
     return together[[*(name for name in together.columns if name not in last), *last]]
 
 
@@ -72,7 +72,7 @@ def ranking_table(tables: Tables, not_covered: Mapping[tuple[str, str], Sequence
     -------
     pandas.DataFrame
         ``difference`` is that of the first from the second, ``difference_ci95`` the half-width of its 95 % interval
-        and ``numerical_ci95``, ... the parts of that, whose squares it adds; ``roads`` counts roads with random phases,
+        and ``numerical_ci95``, ... the parts of that, whose squares it adds; ``draws`` counts roads with random phases,
         or windows, as ``rubfric.results.difference.difference`` does. ``verdict`` and ``words`` say what that means.
     """
     rows = []
@@ -90,7 +90,7 @@ def ranking_table(tables: Tables, not_covered: Mapping[tuple[str, str], Sequence
                 | {"friction_first": pair[0].value, "friction_second": pair[1].value}
                 | {"difference": found.value, "difference_ci95": found.half}
                 | dict(zip(_HALVES, (getattr(found, part) for part in PARTS), strict=True))
-                | {"roads": found.roads, "verdict": verdict}
+                | {"draws": found.roads, "verdict": verdict}
                 | {"words": _words(compared, on, (first, second), found, verdict, at), "not_covered": without}
             )
     table = pd.DataFrame(rows)

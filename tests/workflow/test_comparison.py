@@ -57,7 +57,7 @@ def test_tables_and_figure_are_of_all_pairs(pairs: Project) -> None:
     assert first["friction_total"].tolist() == totals["friction_total"].tolist()
     assert len(compared) == 4 * 2
     assert len(ranked) == (2 + 2) * 2
-    assert set(ranked["roads"]) == {3}
+    assert set(ranked["draws"]) == {3}
     row = ranked[(ranked["on"] == "fine") & (ranked["velocity_mm_per_s"] == 300.0)].iloc[0]
     each = {
         rubber: pd.read_csv(pairs.results / f"totals/{rubber}/fine/friction_total.csv").iloc[1]

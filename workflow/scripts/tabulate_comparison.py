@@ -36,6 +36,13 @@ def main(outputs: dict[str, str], pairs: list[tuple[str, str, str, str, list[str
     page = table_page(compared, "Friction of every rubber on every road", words + _INTERVALS, group="rubber")
     write_page(page, outputs["comparisonhtml"])
     said = "; ".join(headlines(ranked.to_dict("records")))
-    page = table_page(ranked, "Which grips more", f"{said[:1].upper()}{said[1:]}. {_INTERVALS}", group="pressure_MPa")
+    details = ["compared", "on", "first", "second", "friction_first", "friction_second", "verdict"]
+    ranked.insert(ranked.columns.get_loc("compared"), "verdict_in_words", ranked.pop("words"))
+    page = table_page(
+        ranked.drop(columns=details),
+        "Which grips more",
+        f"At all speeds and loads: {said}. {_INTERVALS}",
+        group="pressure_MPa",
+    )
     write_page(page, outputs["rankinghtml"])
     leave(mark)

@@ -103,7 +103,7 @@ def test_tables_say_who_grips_more() -> None:
     at = table[table["velocity_mm_per_s"] == 100.0].set_index(["compared", "on"])
     street, track = at.loc[("rubbers", "street")], at.loc[("rubbers", "track")]
     assert street["words"] == "a grips more than b on street at 100 mm/s and 0.3 MPa, by 0.1100 ± 0.0077"
-    assert (street["verdict"], street["not_covered"], street["roads"]) == (FIRST, "data of rubber a", 2)
+    assert (street["verdict"], street["not_covered"], street["draws"]) == (FIRST, "data of rubber a", 2)
     assert track["verdict"] == EQUAL
     assert track["words"].startswith("a and b cannot be told apart on track at 100 mm/s and 0.3 MPa: they differ by 0.")
     # Two windows of each road say next to nothing about roads: t of one degree of freedom.
@@ -124,7 +124,7 @@ def test_comparison_has_every_pair_with_its_interval() -> None:
     assert table["rubber"].tolist() == ["a", "a", "b", "b"]
     assert table["friction_total_ci95"].iloc[0] == pytest.approx(math.hypot(0.005, 12.706 * 0.1), rel=1e-3)
     assert table["friction_total_ci95"].iloc[2] == pytest.approx(0.013)
-    assert table["roads"].tolist() == [2, 0, 0, 0]
+    assert table["draws"].tolist() == [2, 0, 0, 0]
 
 
 def test_counts_of_verdicts_are_said() -> None:
