@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
+from rubfric.results.comparison import headlines
 from rubfric.results.selection import RUBBER_ERROR, WINDOWS
 
 # How a total was obtained, in words.
@@ -21,16 +22,17 @@ _MOST_NAMED = 5
 
 
 def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
-    """Return sentences on the largest error of single scales and of the whole road, on warnings and on refusals.
+    """Return sentences on the largest error of scales and of the whole road, on warnings, refusals, and who grips more.
 
     Parameters
     ----------
     tables : iterable of path-like
         Tables of single scales, as from ``results.tables.scale_table``, and of totals, as from
-        ``results.totals.total_table``; missing ones are skipped.
+        ``results.totals.total_table``, and rankings of ``results.comparison``; missing ones are skipped.
     """
     found = list(tables)
-    return [*_of_scales(found), *(line for path in found for line in _of_totals(path))]
+    totals = (line for path in found for line in _of_totals(path))
+    return [*_of_scales(found), *totals, *(line for path in found for line in _ranked(path))]
 
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
@@ -82,6 +84,19 @@ def _way(row: dict[str, str]) -> str:
     """Return in words how a total was obtained."""
     profile = row["way"] == "direct" and WINDOWS in row.get("note", "")
     return "the measured profile itself" if profile else WAYS[row["way"]]
+
+
+def _ranked(path: str | os.PathLike[str]) -> list[str]:
+    """Return how often which of two rubbers, or roads, grips more; of many comparisons the first."""
+    lines = headlines(_rows(path, "compared", "verdict"))
+    more = len(lines) - _MOST_NAMED
+    return [*lines[:_MOST_NAMED], *([f"and {more} more comparisons in {os.fspath(path)}"] if more > 0 else [])]
+
+
+def told_apart(path: str | os.PathLike[str]) -> str:
+    """Return the first comparison of a ranking in words, and how many more there are; empty for a missing table."""
+    lines = headlines(_rows(path, "compared", "verdict"))
+    return "; ".join([*lines[:1], *([f"{len(lines) - 1} more"] if len(lines) > 1 else [])])
 
 
 def _point(row: dict[str, str]) -> str:

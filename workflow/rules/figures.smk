@@ -63,14 +63,16 @@ FIGURE_WORDS = {
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
     "fig12": "friction over speed and temperature",
+    "fig13": "friction of every rubber on every road",
 }
 RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
+COMPARISON_FIGURES = ["fig13"] if COMPARED else []
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
     for figure in sorted(
         [
             *(*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES),
-            *(*TOTAL_FIGURES, *WHOLE_FIGURES),
+            *(*TOTAL_FIGURES, *WHOLE_FIGURES, *COMPARISON_FIGURES),
         ]
     )
     for kind in ("pdf", "png")
