@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,14 +69,15 @@ def slide(campaign: Campaign, options: argparse.Namespace) -> int:
 def _scene(campaign: Campaign, options: argparse.Namespace) -> ArealScene:
     warm = campaign.figures.temperature if options.temperature is None else options.temperature
     warm = None if warm is None else number("temperature", warm)
-    numerics = {"accuracy": options.accuracy, "nodes_max": options.nodes}
+    entry = campaign.areal_roads.get(options.road)
+    numerics = _told({"accuracy": options.accuracy, "nodes_max": options.nodes})
     given = {"direction": options.direction, "aspect": options.aspect}
     return ArealScene(
         _road(campaign, options),
         options.velocity,
         options.pressure,
         campaign.material if warm is None else rubber_at(campaign.material, campaign.shift, warm),
-        numerics=ArealNumerics(**_told(numerics)),
+        numerics=replace(entry.numerics if entry else ArealNumerics(), **numerics),
         temperature=warm,
         **_told(given),
     )

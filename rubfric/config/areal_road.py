@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import create_model, model_validator
 
@@ -12,6 +12,7 @@ from rubfric.errors import InvalidInput
 from rubfric.road.areal_waves import ArealWaves
 from rubfric.road.self_affine import SelfAffine
 from rubfric.rules import HERE, rules
+from rubfric.scene.areal import ArealNumerics
 
 _KINDS = ("self_affine", "waves")
 
@@ -76,6 +77,13 @@ class ArealEntry(Entry):
     """A road that is a surface; one scene slides over it by ``rubfric simulate --road NAME``."""
 
     areal: ArealChoice
+    accuracy: Annotated[float, rules(ArealNumerics)["accuracy"]] = ArealNumerics.accuracy
+    nodes_max: Annotated[int, rules(ArealNumerics)["nodes_max"]] = ArealNumerics.nodes_max
+
+    @property
+    def numerics(self) -> ArealNumerics:
+        """How finely scenes on it are solved."""
+        return ArealNumerics(accuracy=self.accuracy, nodes_max=self.nodes_max)
 
     def road(self) -> SelfAffine | ArealWaves:
         """Return the surface."""

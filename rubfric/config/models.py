@@ -291,6 +291,16 @@ class Config(Entry):
     road: Annotated[
         Any, Named("Name of the road in use, one of those under roads; or several, likewise.", several=True)
     ]
+    areal: Annotated[
+        tuple[str, ...],
+        Items(
+            "Areal roads, by their names under roads, that are slid over at every speed and pressure of the grid, in "
+            "small strain and beside the road in use.",
+            Word(),
+            least=0,
+            ascending=False,
+        ),
+    ] = ()
     plane: Annotated[str, Choice("Plane stress (the paper's CPS4R) or plane strain.", PLANES)]
     kinematics: Annotated[
         str,

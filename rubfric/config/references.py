@@ -91,6 +91,10 @@ def references(sections: Mapping[str, Any]) -> list[str]:
             look(Choice(words=presets).check, "claims.preset", claims.preset)
         for name in claims.compare:
             look(Choice(words=claims.readings).check, "claims.compare", name)
+    if "roads" in sections:
+        surfaces = [name for name, road in sections["roads"].items() if isinstance(road, ArealEntry)]
+        for place, one in enumerate(sections.get("areal", ())):
+            look(Choice(words=surfaces).check, f"areal[{place}]", one)
     known = _known(sections, "road", "roads")
     areal = [name for name in known if isinstance(sections["roads"][name], ArealEntry)]
     found += [

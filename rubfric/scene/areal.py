@@ -5,15 +5,22 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Annotated, Any
 
 from rubfric import checks
+from rubfric.errors import InvalidInput
 from rubfric.road.areal import ArealRoad
+from rubfric.road.areal_waves import ArealWaves
+from rubfric.road.self_affine import SelfAffine
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import degrees
 from rubfric.rules import Integer, Number, check_fields
 from rubfric.scene.scene import ASPECT
+
+# Roads that their parameters hold.
+_ROADS: dict[str, type[SelfAffine | ArealWaves]] = {"self_affine": SelfAffine, "waves": ArealWaves}
 
 
 @dataclass(frozen=True)
@@ -94,6 +101,17 @@ class ArealScene:
         parts = {"road": self.road.parameters(), "material": asdict(self.material), "numerics": asdict(self.numerics)}
         plain: dict[str, Any] = json.loads(json.dumps(numbers | parts))
         return plain
+
+    @classmethod
+    def from_parameters(cls, parameters: Mapping[str, Any]) -> ArealScene:
+        """Build the scene that ``parameters`` describes; InvalidInput for a road that these do not hold, a scan."""
+        given = dict(parameters)
+        road = dict(given.pop("road"))
+        kind = road.pop("kind")
+        if kind not in _ROADS:
+            raise InvalidInput(f"the road of the parameters is a {kind}, but must be one of {', '.join(_ROADS)}")
+        material, numerics = Material(**given.pop("material")), ArealNumerics(**given.pop("numerics"))
+        return cls(road=_ROADS[kind](**road), material=material, numerics=numerics, **given)
 
     @property
     def digest(self) -> str:

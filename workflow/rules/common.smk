@@ -226,6 +226,7 @@ def made_for_a_config():
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
         "road_read": ROAD_FILES,
+        "areal_figure": AREAL_FIGURES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }

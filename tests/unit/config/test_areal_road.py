@@ -10,6 +10,7 @@ from rubfric.config.campaign import load
 from rubfric.errors import InvalidInput
 from rubfric.road.areal_waves import ArealWaves
 from rubfric.road.self_affine import SelfAffine
+from rubfric.scene.areal import ArealScene
 
 ROUGH = {"hurst": 0.8, "period": 1.0, "cut_off": 0.125, "rms_slope": 0.25}
 CROSSED = {
@@ -56,3 +57,17 @@ def test_wrong_surfaces_are_refused_with_their_place(given: dict[str, Any], says
 def test_campaign_on_an_areal_road_is_refused_with_what_to_do() -> None:
     with pytest.raises(InvalidInput, match=r"road is runway, an areal road.*rubfric simulate --road runway"):
         load({"road": "runway"} | roads(self_affine=ROUGH))
+
+
+def test_campaign_slides_over_areal_roads_beside_its_own() -> None:
+    given = {"areal": ["runway"], "grid": {"velocities": [1, 10], "pressures": [0.3, 1.0], "aspect": 0.75}}
+    surface = {"areal": {"self_affine": ROUGH}, "nodes_max": 64, "accuracy": 0.05}
+    campaign = load(given | {"roads": {"runway": surface}})
+    scenes = campaign.areal_scenes()
+    assert list(scenes)[:2] == ["runway/areal_v1_p0.3_aspect0.75", "runway/areal_v10_p0.3_aspect0.75"]
+    assert len(scenes) == 4
+    scene = scenes["runway/areal_v10_p0.3_aspect0.75"]
+    assert (scene.numerics.nodes_max, scene.numerics.accuracy, scene.material) == (64, 0.05, campaign.material)
+    assert ArealScene.from_parameters(scene.parameters()) == scene
+    with pytest.raises(InvalidInput, match=r"areal\[0\] is 'street', but must be one of runway"):
+        load({"areal": ["street"], "roads": {"runway": surface}})
