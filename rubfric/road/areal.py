@@ -57,11 +57,6 @@ class ArealSpectrum:
         """Root mean square of the length of the gradient, dimensionless."""
         return math.sqrt(0.5 * float(np.sum((np.abs(self.amplitudes) * self.wavenumbers) ** 2)))
 
-    def slope_along(self, direction: float) -> float:
-        """Return the root mean square of the slope along a direction, in degrees from x."""
-        along = self.wavevectors @ unit_vector(direction)
-        return math.sqrt(0.5 * float(np.sum((np.abs(self.amplitudes) * along) ** 2)))
-
     def shape(self, columns: int) -> tuple[int, int]:
         """Return (ny, nx) of nodes that are ``columns`` along the longer period and as far apart along the other.
 
@@ -70,10 +65,6 @@ class ArealSpectrum:
         longest = max(self.periods)
         nx, ny = (2 * max(2, round(0.5 * columns * period / longest)) for period in self.periods)
         return ny, nx
-
-    def fits(self, shape: tuple[int, int]) -> bool:
-        """Return whether nodes of shape (ny, nx) resolve every wave."""
-        return bool(self._resolved(shape).all())
 
     def heights(self, shape: tuple[int, int]) -> Real:
         """Return s at nodes (i L_x / nx, j L_y / ny), mm, without the waves that they do not resolve.

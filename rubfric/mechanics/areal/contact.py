@@ -66,7 +66,7 @@ class ArealContact:
 
     def on(self, shape: tuple[int, int]) -> ArealContact:
         """Return it on other nodes, each with the values of the one at its place."""
-        rows, columns = (np.arange(n) * len_ // n for n, len_ in zip(shape, self.pressure.shape, strict=True))
+        rows, columns = (np.arange(to) * of // to for to, of in zip(shape, self.pressure.shape, strict=True))
         place = np.ix_(rows, columns)
         pressure = self.pressure[place]
         pressure *= self.pressure.mean() / pressure.mean()

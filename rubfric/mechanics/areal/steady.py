@@ -99,7 +99,7 @@ class ArealSolution:
 
     @property
     def displacement(self) -> Real:
-        """Height of the surface above that of the unloaded block on its highest crest's level, s + gap - d, mm."""
+        """Displacement of the surface away from the road but for its mean, s + gap - d, mm."""
         shape = self.contact.pressure.shape
         return self.scene.road.spectrum.heights(shape) + self.contact.gap - self.contact.offset
 
