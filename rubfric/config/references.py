@@ -97,6 +97,8 @@ def references(sections: Mapping[str, Any]) -> list[str]:
         for key, number in _scales(sections):
             road = sections["roads"][known[0]]
             look(scale_number, key, number, road.scales if isinstance(road, MeasuredRoad) else len(road))
+        for road in known if "phases" in sections else ():
+            look(_phases, road, sections["roads"], sections["phases"].draws)
     for rubber in _known(sections, "rubber", "rubbers") if "grid" in sections else ():
         entry = sections["rubbers"][rubber]
         if not isinstance(entry, MeasuredRubber):  # of which the fit tells how far the shift factors reach
@@ -104,6 +106,16 @@ def references(sections: Mapping[str, Any]) -> list[str]:
     if sections.get("grid") and sections.get("figures"):
         look(_on_grid, sections["grid"], sections["figures"])
     return found
+
+
+def _phases(name: str, roads: Mapping[str, Any], draws: int) -> None:
+    """Windows of a measured profile have the phases that they have."""
+    road = roads[name]
+    if isinstance(road, MeasuredRoad) and road.windows and draws:
+        raise InvalidInput(
+            f"phases.draws is {draws}, but must be 0 where roads.{name} has windows, which are several roads already: "
+            "without windows its sines have random phases"
+        )
 
 
 def _known(sections: Mapping[str, Any], name: str, catalogue: str) -> tuple[str, ...]:

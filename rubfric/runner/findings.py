@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
 from rubfric.results.comparison import headlines
-from rubfric.results.selection import RUBBER_ERROR
+from rubfric.results.selection import RUBBER_ERROR, WINDOWS
 
 # How a total was obtained, in words.
 WAYS = {
@@ -51,8 +51,8 @@ def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
         return []
     carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
-        *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
-        *([f"beside that at most {100.0 * data:.2g} % from the data of the rubber"] if data >= 0.0 else []),
+        *([f"largest estimated error of friction {_percent(worst)}, {where}"] if where else []),
+        *([f"beside that at most {_percent(data)} from the data of the rubber"] if data >= 0.0 else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 
@@ -64,9 +64,7 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
     if known:
         worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
         share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
-        lines.append(
-            f"largest error of the whole road's friction {100.0 * share:.2g} %, {WAYS[worst['way']]}, {_point(worst)}"
-        )
+        lines.append(f"largest error of the whole road's friction {_percent(share)}, {_way(worst)}, {_point(worst)}")
     refused = [row for row in rows if int(row["refused"])]
     if refused:
         named = "; ".join(_point(row).removeprefix("at ") for row in refused[:_MOST_NAMED])
@@ -76,6 +74,16 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
             f"{os.fspath(path)}, column note"
         )
     return lines
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.{2 if share < 0.995 else 3}g} %"
+
+
+def _way(row: dict[str, str]) -> str:
+    """Return in words how a total was obtained."""
+    profile = row["way"] == "direct" and WINDOWS in row.get("note", "")
+    return "the measured profile itself" if profile else WAYS[row["way"]]
 
 
 def _ranked(path: str | os.PathLike[str]) -> list[str]:
@@ -125,7 +133,7 @@ def highest(path: str | os.PathLike[str]) -> str:
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({WAYS[top['way']]})"
+        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({_way(top)})"
     )
 
 

@@ -134,7 +134,11 @@ def _scales(campaign: Campaign) -> list[str]:
 def _survey(campaign: Campaign) -> list[str]:
     """Say what a measured road was made into."""
     survey = campaign.survey
-    return [survey.words, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)] if survey else []
+    if survey is None:
+        return []
+    windows = len(campaign.whole_roads) if survey.windows else 0
+    slid = f", and itself over {windows} window{'s' if windows > 1 else ''}" if windows else ""
+    return [survey.words + slid, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)]
 
 
 def _fit(campaign: Campaign) -> list[str]:

@@ -143,6 +143,18 @@ def pictures(figure, caption, shows, category=REPORT.figures):
     }
 
 
+def extremes(values):
+    """Return the least and the largest."""
+    return min(values), max(values)
+
+
+def road_number(name):
+    """Return on which of several roads a scene is, from 1, given its name with its folder; 0 on the only one."""
+    return (
+        [*CAMPAIGN.whole_roads].index(name.split("all_")[0]) + 1 if "/" in name else 0
+    )
+
+
 def whole_fingerprint(digests):
     """Return what the collection of the whole road is known by, given the digests of the scenes of every road."""
     roads = [fingerprint(sorted(each.values())) for each in digests.values()]
