@@ -143,7 +143,7 @@ def test_roads_moved_mirrored_and_turned_rub_alike(paper_rubber: Material) -> No
     step = 1.0 / 64
     whole = solved(moved(road, (5 * step, 3 * step)), paper_rubber)
     assert whole.friction_coefficient == pytest.approx(base.friction_coefficient, rel=1e-6)
-    assert whole.contact.fraction == base.contact.fraction
+    assert whole.contact.fraction == pytest.approx(base.contact.fraction, abs=3 / 64**2)
     np.testing.assert_allclose(
         np.roll(whole.contact.pressure, (3, 5), axis=(0, 1)),
         base.contact.pressure,
