@@ -25,6 +25,8 @@ _FEWEST = 16
 # What friction from pressures on slopes changed from half as many nodes along each side counts for, and most of its
 # share of friction that it counts for; how many times such estimates an error may be: see ``friction_error``.
 _SLOPES, _MOST_SLOPES, _MARGIN = 0.4, 0.25, 1.3
+# What the same change counts for where nodes were doubled since.
+_FINER = 0.25
 # Nodes resolve a contact whose dissipation changed by less than this share from half as many.
 _MOST_CHANGE = 0.5
 
@@ -170,17 +172,21 @@ def friction_error(meshes: tuple[ArealFriction, ...] | list[ArealFriction]) -> f
     1.3 times the largest of three: what dissipation changed from half as many nodes along each side; by how much the
     routes differ; and 0.4 times what pressures on slopes changed. The latter two count for at most a quarter of
     friction: they stay where nearly relaxed rubber dissipates next to nothing, which dissipation alone gets right.
-    Calibrated on 48 scenes at random against 512 nodes along a side: none of 138 errors was larger, and half of them
-    were less than a fifth of it.
+    Changes of coarser nodes count too, less by a factor of 4 each, since two resolutions may agree by chance. Factors
+    were chosen on 48 scenes at random, and tried on others (``tools/benchmark/areal_error.py``).
 
     Parameters
     ----------
     meshes : sequence of ArealFriction
         Two at least.
     """
-    coarse, fine = meshes[-2:]
-    size, change = abs(fine.dissipation), abs(fine.dissipation - coarse.dissipation)
-    slopes = max(abs(fine.dissipation - fine.contact), _SLOPES * abs(fine.contact - coarse.contact))
+    fine = meshes[-1]
+    size, change, slopes = abs(fine.dissipation), 0.0, abs(fine.dissipation - fine.contact)
+    share = 1.0
+    for before, mesh in zip(meshes[-2::-1], meshes[:0:-1], strict=True):
+        change = max(change, share * abs(mesh.dissipation - before.dissipation))
+        slopes = max(slopes, share * _SLOPES * abs(mesh.contact - before.contact))
+        share *= _FINER
     return _MARGIN * max(change, min(slopes, _MOST_SLOPES * size)) + TOLERANCE * size
 
 
