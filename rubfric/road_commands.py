@@ -213,8 +213,9 @@ def _slide(options: argparse.Namespace) -> int:
     from rubfric.pages.render import write_page
     from rubfric.pages.slide import slide_page
     from rubfric.profile.analysis import analyse
+    from rubfric.results.road_friction import Block
     from rubfric.results.tables import write_table
-    from rubfric.studies.windows import Block, slide
+    from rubfric.studies.windows import slide
 
     cutoffs = options.cutoff or [4.0, 2.0, 1.0]
     found = analyse(_cleaned(options), options.window, min(cutoffs), 1, options.blend)

@@ -14,6 +14,7 @@ from rubfric.profile.analysis import analyse
 from rubfric.profile.cleaning import clean
 from rubfric.profile.reading import read
 from rubfric.profile.virtual import as_measured, self_affine
+from rubfric.results.road_friction import Block
 from rubfric.results.tables import read_table
 from rubfric.studies import windows
 
@@ -105,7 +106,7 @@ def test_a_window_that_is_refused_is_counted_and_left_out(street: str, monkeypat
     roads = [found.road(number) for number in (1, 2, 3)]
     monkeypatch.setattr(windows, "simulate", refusing)
     campaign = load()
-    block = windows.Block(campaign.material, 8.0, "strain", "small", campaign.numerics)
+    block = Block(campaign.material, 8.0, "strain", "small", campaign.numerics)
     row = windows.slide(found, block, [100.0], [0.3], [4.0], 3).iloc[0]
     assert (row["windows"], row["refused"], row["friction_coefficient"]) == (2, 1, 0.25)
     assert row["note"].startswith("window 2: all_v100_p0.3")

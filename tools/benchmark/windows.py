@@ -34,9 +34,9 @@ from rubfric.errors import RubfricError
 from rubfric.profile.analysis import Analysis, analyse
 from rubfric.profile.cleaning import clean
 from rubfric.profile.reading import read
+from rubfric.results.road_friction import Block
 from rubfric.rubber.material import PLANES
 from rubfric.simulation import simulate
-from rubfric.studies.windows import Block
 
 PROJECT = Path(__file__).resolve().parents[2]
 LINES = PROJECT / "results/benchmark/windows.jsonl"
