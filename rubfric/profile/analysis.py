@@ -63,15 +63,17 @@ class Analysis:
     windows: int
     sines: WaveRoad
 
-    def road(self, number: int = 1) -> ProfileRoad:
+    def road(self, number: int = 1, cutoff: float | None = None) -> ProfileRoad:
         """Return a window as a road to slide over.
 
         Parameters
         ----------
         number : int
             Which window, from 1.
+        cutoff : float, optional
+            Shortest wavelength kept, mm, instead of ``cutoff``.
         """
-        return window.road(self.cleaned.profile, self.window, self.cutoff, number, self.blend)
+        return window.road(self.cleaned.profile, self.window, cutoff or self.cutoff, number, self.blend)
 
     def is_trusted(self, octave: Octave) -> bool:
         """Return whether an octave lies in the trusted band with both its ends, or nearly so."""

@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from rubfric.mechanics.theory.persson import contact_fractions, persson_friction
-from rubfric.profile import window
 from rubfric.profile.analysis import Analysis
 from rubfric.road.road import Road
 from rubfric.road.sine import SineScale
@@ -154,8 +153,7 @@ def tabulate(
         descending, last = sorted(set(cutoffs), reverse=True), {"friction_coefficient": 0.0, "friction_persson": 0.0}
         for cutoff in (*descending, *_finer(found, descending[-1])):
             if cutoff not in roads:
-                about = (found.cleaned.profile, found.window, cutoff)
-                roads[cutoff] = [window.road(*about, number, found.blend) for number in range(1, windows + 1)]
+                roads[cutoff] = [found.road(number, cutoff) for number in range(1, windows + 1)]
             theory = np.mean([block.persson(road, velocity, pressure) for road in roads[cutoff]], axis=0).tolist()
             row: dict[str, Any] = place | {"cutoff_mm": cutoff, "way": "direct"}
             if cutoff in descending:

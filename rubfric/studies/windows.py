@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.profile import window
 from rubfric.profile.analysis import Analysis
 from rubfric.profile.scales import sines
 from rubfric.results.road_friction import Block, Outcome, means, tabulate
@@ -62,11 +61,7 @@ def slide(
             f"--windows is {windows}, but the profile has {found.windows} of {found.window:g} mm: take fewer, or "
             "shorter ones with --window"
         )
-    profile = found.cleaned.profile
-    roads = {
-        cutoff: [window.road(profile, found.window, cutoff, number + 1, found.blend) for number in range(windows)]
-        for cutoff in cutoffs
-    }
+    roads = {cutoff: [found.road(number + 1, cutoff) for number in range(windows)] for cutoff in cutoffs}
     few = sines(found.spectrum, scales, found.window, min(cutoffs)) if scales else None
 
     def solved(pressure: float, velocity: float, cutoff: float) -> list[Outcome]:

@@ -12,7 +12,7 @@ from rubfric.runner import jobs
 from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
-from rubfric.runner.findings import highest, verdicts
+from rubfric.runner.findings import carrying, highest, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.leftovers import remove_leftovers
@@ -59,7 +59,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"((draw|window)\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"((cutoff[0-9.e-]+/)?(draw|window)\d+/|sines/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -204,6 +204,8 @@ def made_for_a_config():
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
         "road_read": ROAD_FILES,
+        "road_friction": ROAD_FRICTION,
+        "road_figure": ROAD_FIGURES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -231,6 +233,7 @@ def follow(workflow):
                 "explorer.html",
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
                 *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
+                *([f"roads/{ROAD}_friction.html"] if ROAD_FRICTION else []),
             )
         ],
         dry=lambda: workflow.dryrun,

@@ -1,6 +1,8 @@
 # The whole road, all scales at once: one job per scene, as for a scale, except that a scene that is refused leaves a file
 # that says why, and the campaign goes on. With random phases every draw has a folder of its own.
 WHOLE = CAMPAIGN.whole_scenes()
+# With them the windows of a measured road down to longer cutoffs, and its sines under the same block.
+CUTOFF_SCENES = cutoff_scenes(CAMPAIGN)
 # What decides whether a scene of the whole road is needed.
 CHOOSING = ["rubfric.results.whole_road"] if CAMPAIGN.multiscale.way == "auto" else []
 # The parameters of the whole road at each temperature.
@@ -37,7 +39,9 @@ rule whole_scene:
     priority: 5
     localrule: workflow.remote_exec
     params:
-        parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
+        parameters=lambda wildcards: (WHOLE | CUTOFF_SCENES)[
+            wildcards.whole
+        ].parameters(),
         road=lambda wildcards: (
             ROADS[WHOLE[wildcards.whole].temperature] if CHOOSING else {}
         ),
