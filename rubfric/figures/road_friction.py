@@ -12,6 +12,8 @@ from rubfric.figures.bands import draw_band
 from rubfric.figures.style import DOUBLE_COLUMN, applied, kinds
 
 _HEIGHT = 2.75
+# Contact fractions that differ by more than this factor have a logarithmic axis.
+_DECADES = 20.0
 
 
 def draw(table: pd.DataFrame) -> dict[str, Figure]:
@@ -65,8 +67,12 @@ def over_speed(table: pd.DataFrame) -> Figure:
         panel.plot([], [], "-.", color="0.3", lw=0.9, label="sines of the same spectrum")
     for axes, ordinate in ((panel, "friction coefficient (-)"), (share, "contact fraction (-)")):
         axes.set(xscale="log", xlabel="sliding speed (mm/s)", ylabel=ordinate)
+    contact = finest[["contact_fraction", "contact_persson"]]
+    if contact.max(axis=None) > _DECADES * contact.min(axis=None):
+        share.set_yscale("log")
+    else:
+        share.set_ylim(bottom=0.0)
     panel.set_ylim(bottom=0.0)
-    share.set_yscale("log")
     panel.set_title(f"waves of {finest['cutoff_mm'].iloc[0]:g} mm and longer", loc="left")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", handlelength=1.6, ncols=4)
     return figure
