@@ -11,6 +11,7 @@ import pandas as pd
 from rubfric.figures.road_friction import draw
 from rubfric.figures.style import png
 from rubfric.pages.render import render, sentence
+from rubfric.pages.table import table_page
 from rubfric.results.carriers import carried
 from rubfric.results.road_friction import POINT, WAYS
 
@@ -68,6 +69,25 @@ def slide_page(table: pd.DataFrame, name: str, lead: str) -> str:
         headings=_HEADINGS,
         rows=[_cells(row) for _, row in table.iterrows()],
     )
+
+
+def study_page(table: pd.DataFrame, name: str, lead: str) -> str:
+    """Return the page of what windows, blending and the height of the block do to friction.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As ``rubfric.studies.windows.vary`` returns it.
+    name : str
+        Of the road.
+    lead : str
+        What slid over it.
+    """
+    first = ["window_mm", "blend", "block_height_mm"]
+    rest = [column for column in table.columns if column not in (*first, "way", "cutoff_mm", "note")]
+    cutoff = table["cutoff_mm"].iloc[0]
+    words = f"{lead} Waves of {cutoff:g} mm and longer."
+    return table_page(table[[*first, *rest]], f"Windows and block on {name}", words)
 
 
 def _warnings(table: pd.DataFrame) -> Iterator[str]:

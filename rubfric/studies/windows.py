@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -11,12 +12,53 @@ import numpy as np
 import pandas as pd
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.profile.analysis import Analysis
+from rubfric.profile.analysis import Analysis, analyse
+from rubfric.profile.cleaning import Cleaned
 from rubfric.profile.scales import sines
 from rubfric.results.road_friction import Block, Outcome, means, tabulate
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.simulation import simulate
+
+
+@dataclass(frozen=True)
+class Choice:
+    """How windows are cut out of a road, and how high the block on them is.
+
+    Attributes
+    ----------
+    window : float
+        Length, mm.
+    blend : float
+        Share of it that is blended.
+    height : float
+        Of the block, mm.
+    """
+
+    window: float
+    blend: float
+    height: float
+
+
+def one_by_one(lengths: Sequence[float], blends: Sequence[float], heights: Sequence[float]) -> list[Choice]:
+    """Return the choice of all first values, and those in which one of the three is another.
+
+    Parameters
+    ----------
+    lengths : sequence of float
+        Of windows, mm.
+    blends : sequence of float
+        Shares of a window.
+    heights : sequence of float
+        Of blocks, mm.
+    """
+    first = Choice(lengths[0], blends[0], heights[0])
+    others = [
+        *(replace(first, window=one) for one in lengths),
+        *(replace(first, blend=one) for one in blends),
+        *(replace(first, height=one) for one in heights),
+    ]
+    return list(dict.fromkeys([first, *others]))
 
 
 def slide(
@@ -72,6 +114,57 @@ def slide(
 
     asked = dict.fromkeys(product(pressures, velocities), tuple(cutoffs))
     return tabulate(found, block, asked, windows, solved, fitted, progress)
+
+
+def vary(
+    cleaned: Cleaned,
+    block: Block,
+    velocities: Sequence[float],
+    pressures: Sequence[float],
+    cutoff: float,
+    windows: int,
+    choices: Sequence[Choice],
+    progress: Callable[[str], None] = lambda line: None,
+) -> pd.DataFrame:
+    """Return what length of windows, blending and height of the block do to friction, over one stretch of the road.
+
+    Each of ``choices`` slides over as many windows as make the stretch that the first has, as far as there are.
+
+    Parameters
+    ----------
+    cleaned : Cleaned
+        The profile.
+    block : Block
+        Its height is that of each choice.
+    velocities : sequence of float
+        mm/s.
+    pressures : sequence of float
+        Nominal, MPa.
+    cutoff : float
+        Shortest wavelength kept, mm.
+    windows : int
+        How many of the first choice.
+    choices : sequence of Choice
+    progress : callable
+        Is given a line for each choice, speed and pressure.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Direct rows as of ``slide``, with ``window_mm``, ``blend`` and ``block_height_mm`` at the end.
+    """
+    tables = []
+    for choice in choices:
+        found = analyse(cleaned, choice.window, cutoff, 1, choice.blend)
+        count = min(max(1, round(windows * choices[0].window / choice.window)), found.windows)
+        progress(
+            f"{count} windows of {choice.window:g} mm, {choice.blend:.3g} blended, block {choice.height:g} mm high"
+        )
+        own = replace(block, height=choice.height)
+        table = slide(found, own, velocities, pressures, [cutoff], count, progress=progress)
+        of = {"window_mm": choice.window, "blend": choice.blend, "block_height_mm": choice.height}
+        tables.append(table[table["way"] == "direct"].assign(**of))
+    return pd.concat(tables, ignore_index=True)
 
 
 def _outcome(block: Block, road: WaveRoad | SineScale, velocity: float, pressure: float) -> Outcome:
