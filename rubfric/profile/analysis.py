@@ -117,8 +117,8 @@ class Analysis:
             yield (
                 f"{found.count} places are steeper than {STEEP:g} from one height to the next, walls up to "
                 f"{found.highest:.2g} mm high, and hold {found.share:.0%} of the mean square slope: gaps between "
-                "stones, or errors of the instrument; the shortest waves are theirs, and in finite strain no solution may "
-                "be found where rubber reaches them, which a longer cutoff makes less steep"
+                "stones, or errors of the instrument; the shortest waves are theirs, and in finite strain no solution "
+                "may be found where rubber reaches them, which a longer cutoff makes less steep"
             )
         if self.windows < 2:
             yield "the profile holds one window: how friction scatters over the road cannot be told"
