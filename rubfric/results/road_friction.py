@@ -109,6 +109,7 @@ def tabulate(
     solved: Callable[[float, float, float], Sequence[Outcome]],
     sines: Callable[[float, float], Sequence[dict[str, Any]]] = lambda pressure, velocity: [],
     progress: Callable[[str], None] = lambda line: None,
+    finer: bool = True,
 ) -> pd.DataFrame:
     """Return friction on a road, the mean over its windows, at every pressure, speed and cutoff that is asked for.
 
@@ -130,6 +131,8 @@ def tabulate(
         Takes pressure and speed and returns rows of sines that stand for the road, without their place.
     progress : callable
         Is given a line for each row.
+    finer : bool
+        Whether there are rows of finer waves by Persson's theory.
 
     Returns
     -------
@@ -151,7 +154,7 @@ def tabulate(
     for (pressure, velocity), cutoffs in sorted(asked.items()):
         place = {"velocity_mm_per_s": velocity, "pressure_MPa": pressure}
         descending, last = sorted(set(cutoffs), reverse=True), {"friction_coefficient": 0.0, "friction_persson": 0.0}
-        for cutoff in (*descending, *_finer(found, descending[-1])):
+        for cutoff in (*descending, *(_finer(found, descending[-1]) if finer else ())):
             if cutoff not in roads:
                 roads[cutoff] = [found.road(number, cutoff) for number in range(1, windows + 1)]
             theory = np.mean([block.persson(road, velocity, pressure) for road in roads[cutoff]], axis=0).tolist()

@@ -70,6 +70,7 @@ def slide(
     windows: int,
     scales: int = 0,
     progress: Callable[[str], None] = lambda line: None,
+    finer: bool = True,
 ) -> pd.DataFrame:
     """Return friction on a road at every speed, pressure and cutoff: ``rubfric.results.road_friction.tabulate``.
 
@@ -92,6 +93,8 @@ def slide(
         How many sines to compare with; 0 for none.
     progress : callable
         Is given a line for each speed, pressure and cutoff.
+    finer : bool
+        Whether there are rows of finer waves by Persson's theory.
 
     Raises
     ------
@@ -113,7 +116,7 @@ def slide(
         return [] if few is None else _sines(block, few, velocity, pressure)
 
     asked = dict.fromkeys(product(pressures, velocities), tuple(cutoffs))
-    return tabulate(found, block, asked, windows, solved, fitted, progress)
+    return tabulate(found, block, asked, windows, solved, fitted, progress, finer)
 
 
 def vary(
@@ -161,9 +164,9 @@ def vary(
             f"{count} windows of {choice.window:g} mm, {choice.blend:.3g} blended, block {choice.height:g} mm high"
         )
         own = replace(block, height=choice.height)
-        table = slide(found, own, velocities, pressures, [cutoff], count, progress=progress)
+        table = slide(found, own, velocities, pressures, [cutoff], count, progress=progress, finer=False)
         of = {"window_mm": choice.window, "blend": choice.blend, "block_height_mm": choice.height}
-        tables.append(table[table["way"] == "direct"].assign(**of))
+        tables.append(table.assign(**of))
     return pd.concat(tables, ignore_index=True)
 
 
