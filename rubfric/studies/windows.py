@@ -172,9 +172,10 @@ def vary(
 
 def _outcome(block: Block, road: WaveRoad | SineScale, velocity: float, pressure: float) -> Outcome:
     """Return what sliding over a road gives, or why it was refused."""
+    scene = block.scene(road, velocity, pressure)
     try:
-        result = simulate(block.scene(road, velocity, pressure))
-    except NotConverged as reason:
+        result = simulate(scene)
+    except (InvalidInput, NotConverged) as reason:  # so light a contact, say, that others may still be solved
         return str(reason)
     friction, error, contact = (
         float(result[name]) for name in ("friction_coefficient", "friction_coefficient_error", "contact_fraction")
