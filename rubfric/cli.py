@@ -10,6 +10,7 @@ import rubfric
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
+from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.rig.cli import add_rig
@@ -170,6 +171,8 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     warm = None if scene.temperature is None else {scene.temperature: scene.material}
     for sentence in check_plausible(campaign.material, campaign.road, [scene.velocity], [scene.pressure], warm):
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
+    if campaign.others:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,7 @@ import yaml
 
 from rubfric.columns.format import DECIMALS, SEPARATORS, Format
 from rubfric.config import campaign as campaigns
+from rubfric.config.pairs import which
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
 from rubfric.outputs import check_output, name_of
@@ -243,6 +245,8 @@ def _slide(options: argparse.Namespace) -> int:
         replace(numerics, accuracy=options.accuracy) if options.accuracy else numerics,
     )
     windows = options.windows or min(6, found.windows)
+    if campaign.others:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
     lead = (
         f"{campaign.material.name}, a block {block.height:g} mm high, plane {block.plane}, {block.kinematics} "
         f"kinematics, over {windows} windows of {found.window:g} mm of {options.file}"

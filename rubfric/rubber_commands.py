@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -14,6 +15,7 @@ from rubfric import checks
 from rubfric.config import campaign as campaigns
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, read_yaml
+from rubfric.config.pairs import which
 from rubfric.config.temperature import rubber_at
 from rubfric.decks.deck import UNITS
 from rubfric.errors import InvalidInput
@@ -244,6 +246,8 @@ def _write(options: argparse.Namespace) -> int:
             raise InvalidInput(f"--rubber is {options.rubber!r}, but the config has {', '.join(names)}{hint}")
         given = given | {"rubber": options.rubber}
     campaign = campaigns.Campaign.from_config(given)
+    if campaign.others and options.rubber is None:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
     shift, rubber = campaign.shift, campaign.material
     if options.temperature is not None:
         rubber = rubber_at(rubber, shift, options.temperature)

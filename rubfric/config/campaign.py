@@ -9,11 +9,12 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 from rubfric import checks
 from rubfric.config.default import over_default
+from rubfric.config.entries import gathered, names
 from rubfric.config.fitting import fitted_rubber
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.measured_road import MeasuredRoad, Survey, surveyed
@@ -53,6 +54,16 @@ from rubfric.scene.scene import ALL, Scene
 def _span(values: tuple[float, ...]) -> str:
     """Return the first and the last of ascending numbers, or the only one."""
     return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
+
+
+def _rubber_of(
+    name: str, entry: Any, kept: str | os.PathLike[str] | None, temperatures: tuple[float, ...]
+) -> tuple[FittedRubber | None, Material, Shift | None]:
+    """Return a rubber that is known at the temperatures of the grid: its fit, if it was measured, itself, its shift."""
+    fitted = fitted_rubber(name, entry, kept) if isinstance(entry, MeasuredRubber) else None
+    material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(name, entry.given())
+    check_temperatures(material, shift, temperatures)
+    return fitted, material, shift
 
 
 def _road_of(name: str, entry: Any) -> tuple[Survey | None, tuple[SineScale, ...], tuple[float, ...]]:
@@ -111,6 +122,9 @@ class Campaign:
         The rubber's shift factors.
     temperatures : tuple of float
         degC, ascending; none where the rubber is simulated as it is given.
+    others : tuple of Campaign
+        Of every other pair where the config has several rubbers or roads, the grid alone; this is the first rubber on
+        the first road.
     """
 
     results: str
@@ -135,10 +149,11 @@ class Campaign:
     survey: Survey | None = None
     shift: Shift | None = None
     temperatures: tuple[float, ...] = ()
+    others: tuple[Campaign, ...] = ()
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
-        """Check a config whole and read it; a rubber that was measured is fitted, a road analysed.
+        """Check a config whole and read it; rubbers that were measured are fitted, roads analysed.
 
         Parameters
         ----------
@@ -152,18 +167,26 @@ class Campaign:
             A sentence on everything that is wrong.
         """
         given = read_whole(config)
-        entry = given.rubbers[given.rubber]
-        fitted = fitted_rubber(given.rubber, entry, kept) if isinstance(entry, MeasuredRubber) else None
-        survey, road, phases = _road_of(given.road, given.roads[given.road])
+        warm = given.grid.temperatures
+        rubbers = gathered(lambda name: _rubber_of(name, given.rubbers[name], kept, warm), names(given.rubber))
+        roads = gathered(lambda name: _road_of(name, given.roads[name]), names(given.road))
+        pairs = product(rubbers, zip(names(given.road), roads, strict=True))
+        first, *others = gathered(lambda pair: cls._of(given, pair[0], *pair[1]), pairs)
+        none = dict.fromkeys(("aspect_study", "transient", "rig", "claims"))
+        return replace(first, others=tuple(replace(one, **none) for one in others)) if others else first
+
+    @classmethod
+    def _of(cls, given: Config, rubber: Any, road_name: str, road_parts: Any) -> Campaign:
+        """Return the campaign of one rubber, as from ``_rubber_of``, on one road, as from ``_road_of``."""
+        fitted, material, shift = rubber
+        survey, road, phases = road_parts
         numerics, presets = numerics_of(given)
-        material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(given.rubber, entry.given())
         figures, temperatures = figures_of(given.figures, given.grid), given.grid.temperatures
-        check_temperatures(material, shift, temperatures)
         shown = shown_temperature(figures.temperature, temperatures, shift)
         campaign = cls(
             results=given.results,
             material=material,
-            road_name=given.road,
+            road_name=road_name,
             road=road,
             phases=phases,
             plane=given.plane,
@@ -245,6 +268,11 @@ class Campaign:
             temperature=warm,
             measured=self.fitted.at(warm)[1] if self.fitted else None,
         )
+
+    @property
+    def pairs(self) -> dict[tuple[str, str], Campaign]:
+        """The campaign of every rubber on every road, by their names; the first is this one."""
+        return {(one.material.name, one.road_name): one for one in (self, *self.others)}
 
     def at(self, temperature: float | None) -> Campaign:
         """Return the campaign at one temperature (degC) only; itself for None, a rubber as it is given."""
@@ -383,13 +411,19 @@ class Campaign:
         """
         if self.rig:
             check_area("rig.virtual.area", self.rig.virtual.area)
-        warm = {one: rubber_at(self.material, self.shift, one) for one in self.temperatures}
-        return check_plausible(self.material, self.road, self.velocities, self.pressures, warm)
+
+        def found(one: Campaign) -> list[str]:
+            warm = {at: rubber_at(one.material, one.shift, at) for at in one.temperatures}
+            where = f"road {one.road_name}" if self.others else "the road"
+            return check_plausible(one.material, one.road, one.velocities, one.pressures, warm, where)
+
+        return list(dict.fromkeys(chain(*gathered(found, self.pairs.values()))))
 
     def choices(self) -> dict[str, Any]:
-        """Return, as a config has them, the folder of the results and the sections that depend on the grid."""
+        """Return, as a config has them, folder of the results, rubber, road, and what depends on the grid."""
         sections = {name: getattr(self, name) for name in EXTRAS}
-        plain = {"results": self.results} | {name: one and one.model_dump() for name, one in sections.items()}
+        about = {"results": self.results, "rubber": self.material.name, "road": self.road_name}
+        plain = about | {name: one and one.model_dump() for name, one in sections.items()}
         if self.figures.temperature is None:
             del plain["figures"]["temperature"]
         return plain

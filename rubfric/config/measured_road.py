@@ -22,6 +22,8 @@ if TYPE_CHECKING:  # heavy
     from rubfric.road.profile import ProfileRoad
 
 _FORMS = ("mean", "tilt", "bow")
+# Of a block on a window, in lengths of the window.
+_HEIGHTS = (0.01, 10.0)
 
 
 @dataclass(frozen=True)
@@ -207,11 +209,16 @@ def _surveyed(name: str, entry: MeasuredRoad, digest: str) -> Survey:
             f"windows is {entry.windows}, but the profile has {found.windows} of {found.window:g} mm: take fewer, or "
             "shorter ones with window"
         )
+    low, high = (share * found.window for share in _HEIGHTS)
+    if entry.windows and not low <= entry.block_height <= high:
+        raise InvalidInput(
+            f"block_height is {entry.block_height:g} mm, but on windows of {found.window:g} mm must be from {low:g} to "
+            f"{high:g} mm"
+        )
     numbers = range(1, entry.windows + 1)
     waves = found.sines
     profile = found.cleaned.profile
     kept = f"{found.cleaned.heights.std():.3g} mm rms, wavelengths from {found.cutoff:g} to {found.window:g} mm"
-    slid = f", and directly over {entry.windows} windows" if entry.windows else ""
     return Survey(
         entry.profile,
         tuple(zip(waves.amplitudes, waves.wavenumbers, strict=True)),
@@ -219,7 +226,7 @@ def _surveyed(name: str, entry: MeasuredRoad, digest: str) -> Survey:
         found.cutoff,
         {one: tuple(found.road(number, one) for number in numbers) for one in _coarser(entry, found)},
         entry.block_height,
-        f"road {name} is {profile.length:.4g} mm of {entry.profile}: {kept} as {entry.scales} sines{slid}",
+        f"road {name} is {profile.length:.4g} mm of {entry.profile}: {kept} as {entry.scales} sines",
         tuple(found.warnings()),
     )
 

@@ -277,8 +277,17 @@ class Config(Entry):
     """A campaign of sliding simulations. Numbers are canonical to twelve digits; lists may come in any order."""
 
     results: Annotated[str, Place("Folder of all outputs, created where it is missing.", "folder")]
-    rubber: Annotated[str, Named("Name of the rubber in use, one of those under rubbers.")]
-    road: Annotated[str, Named("Name of the road in use, one of those under roads.")]
+    rubber: Annotated[
+        Any,
+        Named(
+            "Name of the rubber in use, one of those under rubbers; or several, which are compared on every road: all "
+            "other tables and figures are of the first.",
+            several=True,
+        ),
+    ]
+    road: Annotated[
+        Any, Named("Name of the road in use, one of those under roads; or several, likewise.", several=True)
+    ]
     plane: Annotated[str, Choice("Plane stress (the paper's CPS4R) or plane strain.", PLANES)]
     kinematics: Annotated[
         str,

@@ -144,6 +144,8 @@ def _default(value: Any) -> str:
 
 def _allowed(node: dict[str, Any]) -> str:
     """Return in words what a node of the schema allows."""
+    if "anyOf" in node:
+        return ", or ".join(map(_allowed, node["anyOf"]))
     if "enum" in node:
         return " or ".join(f"`{word}`" for word in node["enum"])
     if node["type"] == "array":

@@ -24,6 +24,7 @@ _EXPLORER = (
     "blocks.js",
     "charts.js",
     "whole.js",
+    "roads.js",
     "temperatures.js",
     "explorer.js",
 )

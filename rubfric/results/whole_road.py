@@ -75,6 +75,24 @@ class WholeRoad:
         about = (velocity, pressure, self.height, self.plane, self.kinematics)
         return [estimate(self.material, road, *about) for road in self.roads]
 
+    def accurate_enough(self, velocity: float, pressure: float) -> str:
+        """Return the cheapest way whose total is accurate enough on every road, or "direct" where none is.
+
+        Parameters
+        ----------
+        velocity : float
+            mm/s.
+        pressure : float
+            Nominal, MPa.
+
+        Raises
+        ------
+        NotConverged
+            As ``solve_contact`` does.
+        """
+        ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+        return ways.pop() if len(ways) == 1 else "direct"
+
     def cheapest(self, velocity: float, pressure: float) -> str:
         """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
 
@@ -89,10 +107,9 @@ class WholeRoad:
             Nominal, MPa.
         """
         try:
-            ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+            way = self.accurate_enough(velocity, pressure)
         except NotConverged:
             return "direct"
-        way = ways.pop() if len(ways) == 1 else "direct"
         dear = self.kinematics != "small" and self._waves_in_contact(velocity, pressure) > _MOST_WAVES
         return "corrected" if way == "direct" and dear else way
 

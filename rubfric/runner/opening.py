@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.config.campaign import Campaign
+from rubfric.config.pairs import which
 from rubfric.config.references import spread
 from rubfric.config.temperature import rubber_at
 from rubfric.rubber.material import Material
@@ -100,8 +101,26 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         *_survey(campaign),
         *_moduli(campaign),
         _scenes(campaign),
+        *_others(campaign),
     ]
     return [*lines, *(f"UNLIKELY: {sentence}" for sentence in campaign.unlikely())]
+
+
+def _others(campaign: Campaign) -> list[str]:
+    """Say which rubbers and roads are compared, what is made of the first alone, and what is run for the others."""
+    if not campaign.others:
+        return []
+    scenes = sum(len(one.scenes()) for one in campaign.others)
+    whole = sum(len(one.whole_scenes()) for one in campaign.others)
+    fitted = {one.material.name: one for one in campaign.others if one.material.name != campaign.material.name}
+    surveyed = {one.road_name: one for one in campaign.others if one.road_name != campaign.road_name}
+    parts = [f"{scenes} scenes", *([f"{whole} of the whole road"] if whole else [])]
+    return [
+        f"{which(campaign)}: all tables and figures but the comparison are of it; name another first to draw its own",
+        *(line for one in fitted.values() for line in _fit(one)),
+        *(line for one in surveyed.values() for line in _survey(one)),
+        f"{_many(len(campaign.others), 'other pair')}: {', '.join(parts)}",
+    ]
 
 
 def _scales(campaign: Campaign) -> list[str]:
@@ -115,7 +134,11 @@ def _scales(campaign: Campaign) -> list[str]:
 def _survey(campaign: Campaign) -> list[str]:
     """Say what a measured road was made into."""
     survey = campaign.survey
-    return [survey.words, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)] if survey else []
+    if survey is None:
+        return []
+    windows = len(campaign.whole_roads) if survey.windows else 0
+    slid = f", and itself over {windows} window{'s' if windows > 1 else ''}" if windows else ""
+    return [survey.words + slid, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)]
 
 
 def _fit(campaign: Campaign) -> list[str]:

@@ -1,7 +1,9 @@
-# The page of a road whose profile was measured, and the road as a config of sines. What scenes need of the profile is in
-# their params: planning has read it, as the Snakefile says.
-PROFILED = config["roads"][ROAD] if CAMPAIGN.survey else {}
-ROAD_FILES = [f"{RESULTS}/roads/{ROAD}.{kind}" for kind in ("yaml", "html") if PROFILED]
+# The page of each road whose profile was measured, and the road as a config of sines. What scenes need of the profile is
+# in their params: planning has read it, as the Snakefile says.
+PROFILED = {road: one.survey for (_, road), one in PAIRS.items() if one.survey}
+ROAD_FILES = [
+    f"{RESULTS}/roads/{road}.{kind}" for road in PROFILED for kind in ("yaml", "html")
+]
 
 
 if PROFILED:
@@ -11,23 +13,33 @@ if PROFILED:
             package_files("rubfric.road_commands"),
             page_files("road"),
             script=script_copy("read_road.py"),
-            profile=local(CAMPAIGN.survey.source),
+            profile=lambda wildcards: local(PROFILED[wildcards.road].source),
         output:
-            ROAD_FILES[0],
+            f"{RESULTS}/roads/{{road}}.yaml",
             page=report(
-                ROAD_FILES[1],
+                f"{RESULTS}/roads/{{road}}.html",
                 caption="../report/road.rst",
                 category=REPORT.fields,
-                labels={"data": "the road, from its measured profile"},
+                labels={
+                    "data": "the road"
+                    + (" {road}" if COMPARED else "")
+                    + ", from its measured profile"
+                },
             ),
         log:
-            f"{RESULTS}/logs/roads/{ROAD}.log",
+            f"{RESULTS}/logs/roads/{{road}}.log",
+        wildcard_constraints:
+            road="|".join(PROFILED),
         localrule: True
         params:
-            road=ROAD,
-            entry={name: value for name, value in PROFILED.items() if name != "profile"},
+            road=lambda wildcards: wildcards.road,
+            entry=lambda wildcards: {
+                name: value
+                for name, value in config["roads"][wildcards.road].items()
+                if name != "profile"
+            },
         message:
-            f"The profile of road {ROAD}: {ROAD_FILES[1]}"
+            "The profile of road {wildcards.road}: {output.page}"
         run:
             jobs.run(
                 input.script,

@@ -75,7 +75,11 @@ if ROAD_FRICTION:
         localrule: True
         params:
             road=ROAD,
-            entry={name: value for name, value in PROFILED.items() if name != "profile"},
+            entry={
+                name: value
+                for name, value in config["roads"][ROAD].items()
+                if name != "profile"
+            },
             scene=next(iter(CUTOFF_SCENES.values())).parameters(),
             points=ROAD_POINTS,
             sines=ROAD_SINES,

@@ -1,11 +1,9 @@
 """Draw the block on the whole road, from the results of some scenes, refused ones among them."""
 
-from rubfric.errors import BrokenResult
 from rubfric.figures import fig11
 from rubfric.figures.style import save
 from rubfric.figures.temperature import name_temperature
-from rubfric.results.dataset import load
-from rubfric.results.provenance import OTHER_SCENE
+from rubfric.results.dataset import read
 
 
 def main(
@@ -31,9 +29,5 @@ def main(
     temperature : float or None
         That of the results, degC, which the figure names.
     """
-    read = []
-    for path, digest in zip(results, digests, strict=True):
-        read.append(load(path))
-        if read[-1].attrs.get("scene_digest") != digest:
-            raise BrokenResult(f"{path} {OTHER_SCENE}; delete it and run again")
-    save(name_temperature(fig11.draw(read, draws, windows), temperature), *outputs)
+    scenes = [read(path, digest, refusals=True) for path, digest in zip(results, digests, strict=True)]
+    save(name_temperature(fig11.draw(scenes, draws, windows), temperature), *outputs)

@@ -14,6 +14,7 @@ from rubfric.config.overlay import placed, read_yaml
 from rubfric.errors import InvalidInput
 from rubfric.results.whole_road import WholeRoad
 from rubfric.road.sine import SineScale
+from rubfric.runner.opening import understood
 
 STREET = Path(__file__).resolve().parents[3] / "examples/own_road/street.csv"
 
@@ -76,7 +77,10 @@ def test_windows_of_the_profile_take_the_place_of_the_sines_where_the_whole_road
     sines = load(measured(scales=2, cutoff=4) | {"multiscale": "direct"})
     assert list(sines.whole_roads) == [""]
     assert "windows" not in sines.whole_parameters()
-    assert not load(measured(windows=3) | {"multiscale": "sum"}).whole_roads
+    summed = load(measured(windows=3) | {"multiscale": "sum"})
+    assert not summed.whole_roads
+    assert any("and itself over 3 windows" in line for line in understood(campaign, False))
+    assert not any("itself over" in line for line in understood(summed, False))
 
 
 def test_windows_slide_down_to_longer_cutoffs_too_at_one_pressure() -> None:
@@ -127,6 +131,10 @@ def test_windows_slide_down_to_longer_cutoffs_too_at_one_pressure() -> None:
             "roads.street: cutoffs has 1 mm, but each must be from cutoff, 2 mm, to half of window, 20 mm",
         ),
         ({"profile": str(STREET), "cutoffs": [4, -1]}, r"roads.street.cutoffs\[1\] is -1 mm"),
+        (
+            {"profile": str(STREET), "windows": 2, "block_height": 0.001},
+            "roads.street: block_height is 0.001 mm, but on windows of 40 mm must be from 0.4 to 400 mm",
+        ),
         ({"scales": 3}, "roads.street lacks the key 'profile'"),
         ([], r"roads.street is \[\], but must be a list of at least one scale"),
         ([{"amplitude": 1.0}], r"roads.street\[0\] lacks the key 'wavenumber'"),
@@ -135,6 +143,11 @@ def test_windows_slide_down_to_longer_cutoffs_too_at_one_pressure() -> None:
 def test_what_is_refused(entry: Any, words: str) -> None:
     with pytest.raises(InvalidInput, match=words):
         load(road(entry))
+
+
+def test_windows_have_no_random_phases() -> None:
+    with pytest.raises(InvalidInput, match=r"^phases.draws is 4, but must be 0 where roads.street has windows"):
+        load(measured(windows=2) | {"phases": {"draws": 4}})
 
 
 def test_a_scale_beyond_those_of_the_profile_is_refused() -> None:

@@ -155,6 +155,19 @@ def test_auto_takes_the_way_that_was_found_accurate_enough(campaign: xr.Dataset)
     assert table["refused"].sum() == 0
 
 
+@pytest.mark.parametrize(
+    ("kinematics", "accuracy", "words"),
+    [("finite", 0.01, "would take minutes"), ("finite", 0.07, "accurate enough"), ("small", 0.07, "accurate enough")],
+)
+def test_note_says_minutes_only_where_the_corrected_sum_is_not_accurate_enough(
+    campaign: xr.Dataset, kinematics: str, accuracy: float, words: str
+) -> None:
+    whole = gathered((0,), np.nan, refusals=json.dumps([[[0.0, 1.0, 5.0, 0.75], NOT_NEEDED + "corrected"]]))
+    row = at(total_table(campaign, whole, road("auto", kinematics=kinematics, accuracy=accuracy)), 1.0, 5.0)
+    assert row["way"] == "corrected"
+    assert words in row["note"]
+
+
 @pytest.mark.parametrize(("accuracy", "way"), [(0.01, "direct"), (0.07, "corrected"), (0.25, "sum")])
 def test_cheapest_way_meets_the_accuracy(accuracy: float, way: str) -> None:
     assert road("auto", accuracy=accuracy).cheapest(1000.0, 0.5) == way
