@@ -9,7 +9,7 @@ import pytest
 
 from rubfric import Scene, load
 from rubfric.cli import main
-from rubfric.errors import NotConverged
+from rubfric.errors import InvalidInput, NotConverged
 from rubfric.profile.analysis import analyse
 from rubfric.profile.cleaning import clean
 from rubfric.profile.reading import read
@@ -112,10 +112,13 @@ def test_length_blend_and_height_are_varied_one_by_one_over_the_same_stretch(str
     assert main([*given, *few, "--scales", "2"]) == 2
 
 
-def test_a_window_that_is_refused_is_counted_and_left_out(street: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("too_light", [True, False])
+def test_a_window_that_is_refused_is_counted_and_left_out(
+    street: str, monkeypatch: pytest.MonkeyPatch, too_light: bool
+) -> None:
     def refusing(scene: Scene) -> dict[str, float]:
         if scene.road.amplitudes[0] == roads[1].amplitudes[0]:
-            raise NotConverged(scene.name, 3, 0.5, "residual")
+            raise InvalidInput(f"{scene.name} is light") if too_light else NotConverged(scene.name, 3, 0.5, "residual")
         return dict.fromkeys(("friction_coefficient", "friction_coefficient_error", "contact_fraction"), 0.25)
 
     found = analyse(clean(read(street)), cutoff=4.0, scales=1)
