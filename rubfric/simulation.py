@@ -16,7 +16,7 @@ from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.energies import Energies, most_closure
 from rubfric.mechanics.steady.refinement import Solver, refined
-from rubfric.mechanics.steady.resolution import MOST_FINITE, most_columns
+from rubfric.mechanics.steady.resolution import most_columns
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision, decide
 from rubfric.mechanics.theory.limits import require_digits, require_height, require_resolvable, require_resolved
@@ -97,7 +97,7 @@ def simulate(scene: Scene, *, accuracy: float | None = None) -> xr.Dataset:
         scene = replace(scene, numerics=replace(scene.numerics, accuracy=accuracy))
     decision = decide_solvable(scene)
     finite = decision.kinematics == "finite"
-    remedy = finer_mesh(finite)
+    remedy = finer_mesh(scene, finite)
     require_resolvable(scene, most_columns(scene, finite), remedy)
     mechanics = MECHANICS[decision.kinematics]
     solution = mechanics.solve(scene, decision)
@@ -146,11 +146,18 @@ def evaluate(solution: SteadySolution) -> Energies:
     return MECHANICS[solution.decision.kinematics].evaluate(solution)
 
 
-def finer_mesh(finite: bool) -> str:
-    """Return how a scene can have a finer mesh than it has had, in words."""
+def finer_mesh(scene: Scene, finite: bool) -> str:
+    """Return how a scene can have a finer mesh than it has had, in words.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    """
     if finite:
         return (
-            f"finite strain has at most {MOST_FINITE} columns, small strain (kinematics: small) up to "
+            f"finite strain has at most {most_columns(scene, True)} columns, small strain (kinematics: small) up to "
             "numerics.columns_max"
         )
     return "numerics.columns_max allows for more"

@@ -8,7 +8,6 @@ from rubfric.mechanics.steady.error import allowance, friction_error
 from rubfric.mechanics.steady.refinement import LEAST_WORTH
 from rubfric.mechanics.steady.resolution import (
     MOST_CELLS,
-    MOST_FINITE,
     MOST_SMALL_CELLS,
     Resolution,
     most_columns,
@@ -85,9 +84,11 @@ def _remedy(solution: SteadySolution) -> str:
         return "lower numerics.first_row"
     if allowance(solution) <= 0.0:
         return "lower numerics.folding"
+    if solution.unsolved:
+        return f"a finer mesh, of {solution.unsolved} columns, has no solution"
     if mesh.columns >= most_columns(scene, finite):
         if mesh.columns < scene.numerics.columns_max:
-            return f"finite strain takes no mesh of more than {MOST_FINITE} columns"
+            return f"finite strain takes no mesh of more than {most_columns(scene, finite)} columns"
         return "raise numerics.columns_max"
     if not Resolution(mesh.columns, mesh.growth).finer(scene, LEAST_WORTH, finite).affordable(scene, finite):
         most = MOST_CELLS if finite else MOST_SMALL_CELLS

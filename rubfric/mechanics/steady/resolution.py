@@ -15,8 +15,10 @@ from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Most columns, and cells, of a mesh in finite strain; most cells in small strain.
+# Most columns, and cells, of a mesh in finite strain; most cells in small strain. Roads of very many waves may have
+# more columns, so many times the fewest that the finest of them needs.
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
+_TIMES_FEWEST = 2
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # So many spots of contact together are resolved as finely as one alone.
@@ -174,4 +176,4 @@ def most_columns(scene: Scene, finite: bool) -> int:
         In finite strain.
     """
     most = scene.numerics.columns_max
-    return min(most, MOST_FINITE) if finite else most
+    return min(most, max(MOST_FINITE, _TIMES_FEWEST * _PER_WAVE_FINITE * finest_waves(scene.road))) if finite else most
