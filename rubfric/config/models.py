@@ -204,7 +204,7 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_road(given: Any) -> str:
-    """Return the tag of a road that is areal, or measured by a key of it or one that is misspelt, or a list of scales."""
+    """Return the tag of a road: areal, measured by a key of it or one that is misspelt, or a list of scales."""
     if is_areal(given):
         return f"{HERE}areal"
     keys = given if isinstance(given, Mapping) else ()
