@@ -21,7 +21,7 @@ from rubfric.road.road import finest_waves
 
 # What is solved on the way needs to be near, not exact: to this residual, and to this share of that of its start, lest
 # the line through two solutions near each other be one through their errors.
-_ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
+ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
 _FIRST_SHARE = 0.5
 # Shorter steps are not tried: on many waves, where each costs seconds, fewer of them.
 _SMALLEST_SHARE, _SMALLEST_SHARE_MANY = 1e-3, 1e-2
@@ -156,7 +156,7 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
     light = replace(load, pressure=_LIGHT * load.pressure)
     try:
         start = Start(problem.finite.pressed(light.pressure), flat.touching)
-        first = way.follow(start, lambda share: replace(light, share=share), rise, last=_ON_THE_WAY)
+        first = way.follow(start, lambda share: replace(light, share=share), rise, last=ON_THE_WAY)
         return way.follow(
             Start(first.fields, first.correction.contact.touching),
             lambda share: replace(load, pressure=_LIGHT ** (1.0 - share) * load.pressure),
@@ -244,7 +244,7 @@ class Way:
         while True:
             ahead, distance = self._near(before, (share, here), min(1.0, share + length), loads)
             guess = _extrapolate(before, (share, here.fields), ahead)
-            tolerance = max(min(_ON_THE_WAY, _GAIN * distance), _NEAR_ENOUGH)
+            tolerance = max(min(ON_THE_WAY, _GAIN * distance), _NEAR_ENOUGH)
             if ahead == 1.0:
                 tolerance = self._tolerance if last is None else last
             try:

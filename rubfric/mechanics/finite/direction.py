@@ -21,8 +21,8 @@ from rubfric.mechanics.finite.linearised import EVEN, Linearised, scaling
 from rubfric.road.road import finest_waves
 
 MOST_KRYLOV = 60
-# Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.
-_MOST_PASSES, _PATIENCE = 12, 4
+# Sets of contact nodes that are tried: more of them are worth less than a new linearisation.
+_MOST_PASSES = 4
 # Shares of the residual down to which single precision is enough.
 _SINGLE = 1e-4
 # Applications of the tangent after which no other set is tried.
@@ -99,7 +99,7 @@ def newton_direction(
     applied = most = passes = 0
     precision = np.float32 if forcing >= _SINGLE else np.float64
     scale = scaling(problem.finite, stiffness, finest_waves(load.road)) if scaled else EVEN
-    best, patience, few = len(touching) + 1, _PATIENCE, len(touching) // _COLUMNS_PER_FEW
+    few = len(touching) // _COLUMNS_PER_FEW
     while True:
         passes += 1
         linear = Linearised(problem, circulant, stiffness, correction, load, touching, scale)
@@ -118,13 +118,9 @@ def newton_direction(
                 break
         vector = krylov.vector()
         applied, most = applied + krylov.applied, max(most, krylov.applied)
-        if found < best:
-            best, patience = found, _PATIENCE
-        else:
-            patience -= 1
         if passes == 1:
             first = problem.unpack(vector), touching
-        if not (found > few and patience and passes < _MOST_PASSES and applied < _MOST_APPLIED):
+        if not (found > few and passes < _MOST_PASSES and applied < _MOST_APPLIED):
             plain = first if found > few and passes > 1 else None
             return Direction(problem.unpack(vector), touching ^ violated, applied, most, passes, plain)
         touching = touching ^ violated

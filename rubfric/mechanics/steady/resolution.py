@@ -93,6 +93,21 @@ class Resolution:
         growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
         return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
 
+    def halfway(self, other: Resolution, scene: Scene, finite: bool) -> Resolution | None:
+        """Return a mesh between this one and another, or None where there is none.
+
+        Parameters
+        ----------
+        other : Resolution
+        scene : Scene
+        finite : bool
+            In finite strain.
+        """
+        growth = 1.0 + math.sqrt((self.growth - 1.0) * (other.growth - 1.0))
+        between = Resolution(fit(scene, math.sqrt(self.columns * other.columns), finite), growth)
+        meshes = [(one.columns, one.block(scene).rows) for one in (self, between, other)]
+        return between if len(set(meshes)) == len(meshes) else None
+
 
 def needed(scene: Scene, fraction: float, finite: bool, spots: int = 1) -> Resolution:
     """Return the mesh that puts as many nodes as asked for into a contact of some fraction of the road.
