@@ -100,9 +100,12 @@ def newton_direction(
     precision = np.float32 if forcing >= _SINGLE else np.float64
     scale = scaling(problem.finite, stiffness, finest_waves(load.road)) if scaled else EVEN
     few = len(touching) // _COLUMNS_PER_FEW
+    finite = problem.finite
+    if precision is np.float32:
+        finite, circulant, stiffness = finite.single(), circulant.single(), stiffness.single()
     while True:
         passes += 1
-        linear = Linearised(problem, circulant, stiffness, correction, load, touching, scale)
+        linear = Linearised(problem, finite, circulant, stiffness, correction, load, touching, scale)
         rest, held = linear.rest()
         krylov = Krylov(_operator(problem, linear), problem.pack(rest), vector, MOST_KRYLOV, precision)
         for goal in (max(_LOOSE, forcing), forcing):
