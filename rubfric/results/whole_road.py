@@ -8,14 +8,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from rubfric.errors import NotConverged
+from rubfric.mechanics.theory.compression import pressed
 from rubfric.mechanics.theory.coupling import Coupling, estimate
 from rubfric.mechanics.theory.layer import full_contact_pressure
 from rubfric.road.road import finest_waves
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
-# Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain.
-_MOST_WAVES = 13.0
+# Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain, or has no solution
+# that can be found; fewer where the load presses a relaxed block on a flat road to less than a share of its height.
+_MOST_WAVES, _MOST_WAVES_PRESSED, _PRESSED = 40.0, 13.0, 2.0 / 3.0
 
 
 @dataclass(frozen=True)
@@ -70,8 +72,8 @@ class WholeRoad:
     def cheapest(self, velocity: float, pressure: float) -> str:
         """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
 
-        In finite strain it is the corrected sum where no way is, and many of its waves are in contact: the whole road
-        would take minutes there.
+        In finite strain it is the corrected sum where no way is, and many of the road's waves are in contact: the whole
+        road would take minutes there.
 
         Parameters
         ----------
@@ -85,8 +87,14 @@ class WholeRoad:
         except NotConverged:
             return "direct"
         way = ways.pop() if len(ways) == 1 else "direct"
-        dear = self.kinematics != "small" and self._waves_in_contact(velocity, pressure) > _MOST_WAVES
-        return "corrected" if way == "direct" and dear else way
+        return "corrected" if way == "direct" and self._dear(velocity, pressure) else way
+
+    def _dear(self, velocity: float, pressure: float) -> bool:
+        """Return whether the whole road would take minutes at a speed (mm/s) and a pressure (MPa)."""
+        if self.kinematics == "small":
+            return False
+        low = pressed(self.material, pressure, self.plane)[0] < _PRESSED
+        return self._waves_in_contact(velocity, pressure) > (_MOST_WAVES_PRESSED if low else _MOST_WAVES)
 
     def _waves_in_contact(self, velocity: float, pressure: float) -> float:
         """Return the finest waves of a period times Persson's contact fraction of the whole road, erf(p / p*)."""
