@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from rubfric.errors import NotConverged
-from rubfric.mechanics.theory.compression import pressed
 from rubfric.mechanics.theory.coupling import Coupling, estimate
 from rubfric.mechanics.theory.layer import full_contact_pressure
 from rubfric.road.road import finest_waves
@@ -16,8 +15,8 @@ from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
 # Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain, or has no solution
-# that can be found; fewer where the load presses a relaxed block on a flat road to less than a share of its height.
-_MOST_WAVES, _MOST_WAVES_PRESSED, _PRESSED = 40.0, 13.0, 2.0 / 3.0
+# that can be found; fewer under a heavy load, of so many long-term shear moduli.
+_MOST_WAVES, _MOST_WAVES_HEAVY, _HEAVY = 40.0, 13.0, 1.5
 
 
 @dataclass(frozen=True)
@@ -93,8 +92,8 @@ class WholeRoad:
         """Return whether the whole road would take minutes at a speed (mm/s) and a pressure (MPa)."""
         if self.kinematics == "small":
             return False
-        low = pressed(self.material, pressure, self.plane)[0] < _PRESSED
-        return self._waves_in_contact(velocity, pressure) > (_MOST_WAVES_PRESSED if low else _MOST_WAVES)
+        heavy = pressure > _HEAVY * self.material.long_term_shear_modulus
+        return self._waves_in_contact(velocity, pressure) > (_MOST_WAVES_HEAVY if heavy else _MOST_WAVES)
 
     def _waves_in_contact(self, velocity: float, pressure: float) -> float:
         """Return the finest waves of a period times Persson's contact fraction of the whole road, erf(p / p*)."""

@@ -164,7 +164,7 @@ def test_cheapest_way_meets_the_accuracy(accuracy: float, way: str) -> None:
         ("finite", 1.0, 5.0, "corrected"),
         ("finite", 1.0, 0.1, "direct"),
         ("small", 1.0, 5.0, "direct"),
-        # Less of the road is in contact, but the load presses the block lower.
+        # Less of the road is in contact, but the load is heavy.
         ("finite", 1.0, 1.0, "direct"),
         ("finite", 100.0, 5.0, "corrected"),
     ],
