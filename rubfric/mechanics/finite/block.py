@@ -214,6 +214,14 @@ class FiniteBlock:
         return self.history.bulk_kernel
 
     @property
+    def contrast(self) -> float:
+        """The largest modulus that a harmonic sees over the long-term shear modulus, dimensionless."""
+        material = self.material
+        bulk = material.long_term_bulk_modulus + np.abs(self.bulk_kernel).max()
+        shear = material.long_term_shear_modulus + np.abs(self.shear_kernel).max()
+        return float(max(bulk, shear) / material.long_term_shear_modulus)
+
+    @property
     def unknowns(self) -> int:
         """Unknowns at a point: 5 in plane stress, 4 in plane strain."""
         return 5 if self.block.plane == "stress" else 4

@@ -23,8 +23,9 @@ from rubfric.road.road import finest_waves
 MOST_KRYLOV = 60
 # Sets of contact nodes that are tried: more of them are worth less than a new linearisation.
 _MOST_PASSES = 4
-# Shares of the residual down to which single precision is enough.
-_SINGLE = 1e-4
+# Shares of the residual down to which single precision is enough, for vectors and, as long as moduli differ by no more
+# than a factor, for the tangent: what differs by more would be lost in its digits.
+_SINGLE, _MOST_CONTRAST = 1e-4, 1e4
 # Applications of the tangent after which no other set is tried.
 _MOST_APPLIED = 120
 # The first few sets are told from each other after GMRES has solved to this share of the residual.
@@ -101,7 +102,7 @@ def newton_direction(
     scale = scaling(problem.finite, stiffness, finest_waves(load.road)) if scaled else EVEN
     few = len(touching) // _COLUMNS_PER_FEW
     finite = problem.finite
-    if precision is np.float32:
+    if precision is np.float32 and finite.contrast <= _MOST_CONTRAST:
         finite, circulant, stiffness = finite.single(), circulant.single(), stiffness.single()
     while True:
         passes += 1
@@ -135,7 +136,7 @@ def _operator(problem: SlidingContact, linear: Linearised) -> Operator:
     """Return the derivative of u - T(u) on packed steps; beside it go the pressures and the way along the normals."""
 
     def apply(packed: Real) -> tuple[Real, Real]:
-        step = problem.unpack(packed)
+        step = problem.unpack(packed.astype(linear.precision, copy=False))
         change, pressure = linear.change(step)
         return problem.pack(change), np.stack((pressure, linear.along_normals(step)))
 

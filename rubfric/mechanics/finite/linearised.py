@@ -83,6 +83,11 @@ class Linearised:
     scale : Fields
         From ``scaling``, or ``EVEN``.
 
+    Attributes
+    ----------
+    precision : dtype
+        Of the steps that ``change`` takes.
+
     Raises
     ------
     numpy.linalg.LinAlgError
@@ -102,8 +107,8 @@ class Linearised:
     ) -> None:
         self._problem, self._finite, self._circulant, self._stiffness = problem, finite, circulant, stiffness
         self._correction, self._load, self._even = correction, load, scale is EVEN
-        self._precision = stiffness.curvature.dtype
-        self._scale = scale.astype(self._precision)
+        self.precision = stiffness.curvature.dtype
+        self._scale = scale.astype(self.precision)
         self._normal = correction.normal
         self._width = width = problem.finite.block.column_width
         # The normal turns as nodes move along the road: a stiffness of the surface.
@@ -129,7 +134,7 @@ class Linearised:
         forces = -self._problem.finite.forces(known.state.stress[:4])
         forces[1, -1] -= self._problem.finite.top_load(load.pressure)
         forces[:, 0] += self._normal * balancing * self._width
-        loads = Fields(forces, -known.state.stress[4:], -known.state.volume_excess).astype(self._precision)
+        loads = Fields(forces, -known.state.stress[4:], -known.state.volume_excess).astype(self.precision)
         unbalanced = loads.displacement, loads.log_thickness, loads.volume
         total = load.pressure * len(self._touching) - float(balancing.sum())
         step, change = self._preconditioned(*unbalanced, -known.above, total)
