@@ -16,11 +16,12 @@ from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.energies import Energies, most_closure
 from rubfric.mechanics.steady.refinement import Solver, refined
-from rubfric.mechanics.steady.resolution import MOST_FINITE, most_columns
+from rubfric.mechanics.steady.resolution import MOST_FINITE, MOST_FINITE_MANY, most_columns
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision, decide
 from rubfric.mechanics.theory.limits import require_digits, require_height, require_resolvable, require_resolved
 from rubfric.results import dataset
+from rubfric.road.road import finest_waves
 from rubfric.scene.scene import Scene
 
 
@@ -97,7 +98,7 @@ def simulate(scene: Scene, *, accuracy: float | None = None) -> xr.Dataset:
         scene = replace(scene, numerics=replace(scene.numerics, accuracy=accuracy))
     decision = decide_solvable(scene)
     finite = decision.kinematics == "finite"
-    remedy = finer_mesh(finite)
+    remedy = finer_mesh(scene, finite)
     require_resolvable(scene, most_columns(scene, finite), remedy)
     mechanics = MECHANICS[decision.kinematics]
     solution = mechanics.solve(scene, decision)
@@ -146,11 +147,9 @@ def evaluate(solution: SteadySolution) -> Energies:
     return MECHANICS[solution.decision.kinematics].evaluate(solution)
 
 
-def finer_mesh(finite: bool) -> str:
+def finer_mesh(scene: Scene, finite: bool) -> str:
     """Return how a scene can have a finer mesh than it has had, in words."""
     if finite:
-        return (
-            f"finite strain has at most {MOST_FINITE} columns, small strain (kinematics: small) up to "
-            "numerics.columns_max"
-        )
+        most = MOST_FINITE_MANY if finest_waves(scene.road) > 1 else MOST_FINITE
+        return f"finite strain has at most {most} columns, small strain (kinematics: small) up to numerics.columns_max"
     return "numerics.columns_max allows for more"

@@ -7,10 +7,8 @@ import numpy as np
 from rubfric.mechanics.steady.error import allowance, friction_error
 from rubfric.mechanics.steady.refinement import LEAST_WORTH
 from rubfric.mechanics.steady.resolution import (
-    MOST_CELLS,
-    MOST_FINITE,
-    MOST_SMALL_CELLS,
     Resolution,
+    most_cells,
     most_columns,
 )
 from rubfric.mechanics.steady.solution import SteadySolution
@@ -87,10 +85,10 @@ def _remedy(solution: SteadySolution) -> str:
         return "lower numerics.folding"
     if mesh.columns >= most_columns(scene, finite):
         if mesh.columns < scene.numerics.columns_max:
-            return f"finite strain takes no mesh of more than {MOST_FINITE} columns"
+            return f"finite strain takes no mesh of more than {most_columns(scene, finite)} columns"
         return "raise numerics.columns_max"
     if not Resolution(mesh.columns, mesh.growth).finer(scene, LEAST_WORTH, finite).affordable(scene, finite):
-        most = MOST_CELLS if finite else MOST_SMALL_CELLS
+        most = most_cells(scene, finite)
         return f"{solution.decision.kinematics} strain takes no mesh of more than {most:,} cells"
     return "raise numerics.refinements"
 

@@ -17,6 +17,8 @@ from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 COLUMN_STEP = 8
 # Most columns, and cells, of a mesh in finite strain; most cells in small strain.
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
+# On many waves the spots of contact are many and small, and deep rows cost little.
+MOST_FINITE_MANY, MOST_CELLS_MANY = 8192, 750_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # So many spots of contact together are resolved as finely as one alone.
@@ -64,7 +66,7 @@ class Resolution:
         finite : bool
             In finite strain.
         """
-        return self.columns * self.block(scene).rows <= (MOST_CELLS if finite else MOST_SMALL_CELLS)
+        return self.columns * self.block(scene).rows <= most_cells(scene, finite)
 
     def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
         """Return the mesh with cells smaller by ``factor`` in both directions.
@@ -189,4 +191,18 @@ def most_columns(scene: Scene, finite: bool) -> int:
         In finite strain.
     """
     most = scene.numerics.columns_max
-    return min(most, MOST_FINITE) if finite else most
+    return min(most, MOST_FINITE_MANY if finest_waves(scene.road) > 1 else MOST_FINITE) if finite else most
+
+
+def most_cells(scene: Scene, finite: bool) -> int:
+    """Return the most cells that a mesh may have.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    """
+    if not finite:
+        return MOST_SMALL_CELLS
+    return MOST_CELLS_MANY if finest_waves(scene.road) > 1 else MOST_CELLS
