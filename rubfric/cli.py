@@ -10,9 +10,11 @@ import rubfric
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
+from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.rig.cli import add_rig
+from rubfric.road_commands import add_road
 from rubfric.rubber.material import PLANES
 from rubfric.rubber_commands import add_rubber
 from rubfric.scene.procedure import STARTS
@@ -112,6 +114,7 @@ def _parser() -> argparse.ArgumentParser:
     init.set_defaults(run=_init)
     add_rig(commands, _configs)
     add_rubber(commands, _configs)
+    add_road(commands, _configs)
     return parser
 
 
@@ -168,6 +171,8 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     warm = None if scene.temperature is None else {scene.temperature: scene.material}
     for sentence in check_plausible(campaign.material, campaign.road, [scene.velocity], [scene.pressure], warm):
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
+    if campaign.others:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -14,13 +15,15 @@ from rubfric import checks
 from rubfric.config import campaign as campaigns
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, read_yaml
+from rubfric.config.pairs import which
 from rubfric.config.temperature import rubber_at
 from rubfric.decks.deck import UNITS
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
+from rubfric.outputs import check_output, name_of
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import Shift, ShiftedRubber
-from rubfric.rules import Number, Word
+from rubfric.rules import Number
 
 if TYPE_CHECKING:  # heavy
     from rubfric.dma.bootstrap import Bands
@@ -150,10 +153,10 @@ def _add_fit(own: Any) -> None:
 
 
 def _fit(options: argparse.Namespace) -> int:
-    name = _name(options.name, options.file)
+    name = name_of(options.name, options.file)
     output = options.output or Path(f"rubber_{name}.yaml")
     page = output.with_suffix(".html")
-    _check_output(output)
+    check_output(output, "rubber", (_OURS, UNITS))
     for key, least, most in (
         *(("isotherm", 1e-3, 20.0), ("branches_per_decade", 0.2, 20.0), ("samples", 20, 10000)),
         *(("bulk_modulus", 1.0, 1e6), ("static_modulus", 1e-4, 1e5)),
@@ -203,8 +206,8 @@ def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: s
     how : str
         How the rubber was found, for the config's first line.
     """
-    from rubfric.pages.render import write_page
-    from rubfric.pages.rubber import results, rubber_page, sentence
+    from rubfric.pages.render import sentence, write_page
+    from rubfric.pages.rubber import results, rubber_page
 
     rows = [
         " ".join(filter(None, (f"{label}:", value, band and f"(95 %: {band})")))
@@ -222,7 +225,7 @@ def _read(options: argparse.Namespace) -> int:
     from rubfric.decks.deck import rubber
     from rubfric.decks.files import read_deck
 
-    name = _name(options.name, options.deck)
+    name = name_of(options.name, options.deck)
     deck = read_deck(options.deck, options.code, options.units, options.material)
     material = rubber(deck, name, options.youngs_modulus, options.poissons_ratio, options.static_modulus)
     notes = [f"{note[:1].upper()}{note[1:]}." for note in deck.notes]
@@ -243,6 +246,8 @@ def _write(options: argparse.Namespace) -> int:
             raise InvalidInput(f"--rubber is {options.rubber!r}, but the config has {', '.join(names)}{hint}")
         given = given | {"rubber": options.rubber}
     campaign = campaigns.Campaign.from_config(given)
+    if campaign.others and options.rubber is None:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
     shift, rubber = campaign.shift, campaign.material
     if options.temperature is not None:
         rubber = rubber_at(rubber, shift, options.temperature)
@@ -257,30 +262,10 @@ def _put(text: str, output: Path | None) -> None:
     if output is None:
         print(text, end="")
         return
-    _check_output(output)
+    check_output(output, "rubber", (_OURS, UNITS))
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
     print(f"Written to {output}")
-
-
-def _check_output(output: Path) -> None:
-    """Refuse to write over a folder, or over a file that a user may have written."""
-    if output.is_dir():
-        raise InvalidInput(f"--output is the folder {output}, but must be a file")
-    if output.suffix in (".html", ".htm"):
-        raise InvalidInput(f"--output is {output}, but must be the file of the rubber; a fit writes its page beside it")
-    if output.exists():
-        with output.open(encoding="utf-8", errors="replace") as stream:
-            first = stream.readline()
-            if not first.startswith(_OURS) and UNITS not in first:
-                raise InvalidInput(f"{output} exists and was not written by this command: name another with --output")
-
-
-def _name(given: str | None, path: str) -> str:
-    if given is not None:
-        return Word().check("--name", given)
-    stem = "".join(c if c.isascii() and (c.isalnum() or c in "-_") else "_" for c in Path(path).stem)[:50].strip("_")
-    return stem or "mine"
 
 
 def _columns(path: str | None) -> dict[str, Any]:

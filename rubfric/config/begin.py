@@ -34,6 +34,7 @@ roads:
   {name}:                                        # sine scales, from coarse to fine
     - {{amplitude: 0.01, wavelength: 0.18}}        # mm; or wavenumber: 2 pi / wavelength, rad/mm (here 34.9)
     - {{amplitude: 0.002, wavelength: 0.03}}
+    # In place of this list, a profile that was measured (docs/road.md):   {name}: {{profile: street.csv}}
 
 grid:
   velocities: [1, 10, 100, 1000]                 # mm/s

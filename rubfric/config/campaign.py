@@ -9,13 +9,15 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 from rubfric import checks
 from rubfric.config.default import over_default
+from rubfric.config.entries import gathered, names
 from rubfric.config.fitting import fitted_rubber
 from rubfric.config.measured import MeasuredRubber
+from rubfric.config.measured_road import MeasuredRoad, Survey, surveyed
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -52,6 +54,26 @@ from rubfric.scene.scene import ALL, Scene
 def _span(values: tuple[float, ...]) -> str:
     """Return the first and the last of ascending numbers, or the only one."""
     return " to ".join(dict.fromkeys(checks.written(value) for value in (values[0], values[-1])))
+
+
+def _rubber_of(
+    name: str, entry: Any, kept: str | os.PathLike[str] | None, temperatures: tuple[float, ...]
+) -> tuple[FittedRubber | None, Material, Shift | None]:
+    """Return a rubber that is known at the temperatures of the grid: its fit, if it was measured, itself, its shift."""
+    fitted = fitted_rubber(name, entry, kept) if isinstance(entry, MeasuredRubber) else None
+    material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(name, entry.given())
+    check_temperatures(material, shift, temperatures)
+    return fitted, material, shift
+
+
+def _road_of(name: str, entry: Any) -> tuple[Survey | None, tuple[SineScale, ...], tuple[float, ...]]:
+    """Return what is made of a measured profile, if the road is one, and the scales and phases of the road."""
+    if isinstance(entry, MeasuredRoad):
+        survey = surveyed(name, entry)
+        return survey, tuple(SineScale(*scale) for scale in survey.scales), (0.0,) * len(survey.scales)
+    scales = [dict(scale) for scale in entry]
+    sines = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
+    return None, sines, tuple(scale["phase"] for scale in scales)
 
 
 @dataclass(frozen=True)
@@ -94,10 +116,15 @@ class Campaign:
         Every preset, by name.
     fitted : FittedRubber or None
         The rubber where it was fitted to measured moduli, with its shift factors and what the measurement leaves open.
+    survey : Survey or None
+        The road where its profile was measured.
     shift : Shift or None
         The rubber's shift factors.
     temperatures : tuple of float
         degC, ascending; none where the rubber is simulated as it is given.
+    others : tuple of Campaign
+        Of every other pair where the config has several rubbers or roads, the grid alone; this is the first rubber on
+        the first road.
     """
 
     results: str
@@ -119,12 +146,14 @@ class Campaign:
     numerics: Numerics
     presets: dict[str, Numerics]
     fitted: FittedRubber | None = None
+    survey: Survey | None = None
     shift: Shift | None = None
     temperatures: tuple[float, ...] = ()
+    others: tuple[Campaign, ...] = ()
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
-        """Check a config whole and read it; a rubber that was measured is fitted.
+        """Check a config whole and read it; rubbers that were measured are fitted, roads analysed.
 
         Parameters
         ----------
@@ -138,24 +167,37 @@ class Campaign:
             A sentence on everything that is wrong.
         """
         given = read_whole(config)
-        entry = given.rubbers[given.rubber]
-        fitted = fitted_rubber(given.rubber, entry, kept) if isinstance(entry, MeasuredRubber) else None
-        scales = [dict(scale) for scale in given.roads[given.road]]
-        road = tuple(SineScale(scale["amplitude"], wavenumber(scale)) for scale in scales)
+        warm = given.grid.temperatures
+        rubbers = gathered(lambda name: _rubber_of(name, given.rubbers[name], kept, warm), names(given.rubber))
+        roads = gathered(lambda name: _road_of(name, given.roads[name]), names(given.road))
+        pairs = product(rubbers, zip(names(given.road), roads, strict=True))
+        first, *others = gathered(lambda pair: cls._of(given, pair[0], *pair[1]), pairs)
+        none = dict.fromkeys(("aspect_study", "transient", "rig", "claims"))
+        return replace(first, others=tuple(replace(one, **none) for one in others)) if others else first
+
+    @classmethod
+    def _of(cls, given: Config, rubber: Any, road_name: str, road_parts: Any) -> Campaign:
+        """Return the campaign of one rubber, as from ``_rubber_of``, on one road, as from ``_road_of``."""
+        fitted, material, shift = rubber
+        survey, road, phases = road_parts
         numerics, presets = numerics_of(given)
-        material, shift = (fitted.material, fitted.shift) if fitted else rubber_of(given.rubber, entry.given())
         figures, temperatures = figures_of(given.figures, given.grid), given.grid.temperatures
-        check_temperatures(material, shift, temperatures)
         shown = shown_temperature(figures.temperature, temperatures, shift)
         campaign = cls(
             results=given.results,
             material=material,
-            road_name=given.road,
+            road_name=road_name,
             road=road,
-            phases=tuple(scale["phase"] for scale in scales),
+            phases=phases,
             plane=given.plane,
             kinematics=given.kinematics,
-            multiscale=Multiscale(given.multiscale, given.multiscale_preset, given.phases.draws, given.phases.seed),
+            multiscale=Multiscale(
+                # The windows of a profile are what no model of its sines stands for.
+                "direct" if survey and survey.windows and given.multiscale == "auto" else given.multiscale,
+                given.multiscale_preset,
+                given.phases.draws,
+                given.phases.seed,
+            ),
             velocities=given.grid.velocities,
             pressures=given.grid.pressures,
             aspect=given.grid.aspect,
@@ -167,6 +209,7 @@ class Campaign:
             numerics=numerics,
             presets=presets,
             fitted=fitted,
+            survey=survey,
             shift=shift,
             temperatures=temperatures,
         )
@@ -226,6 +269,11 @@ class Campaign:
             measured=self.fitted.at(warm)[1] if self.fitted else None,
         )
 
+    @property
+    def pairs(self) -> dict[tuple[str, str], Campaign]:
+        """The campaign of every rubber on every road, by their names; the first is this one."""
+        return {(one.material.name, one.road_name): one for one in (self, *self.others)}
+
     def at(self, temperature: float | None) -> Campaign:
         """Return the campaign at one temperature (degC) only; itself for None, a rubber as it is given."""
         if temperature is None:
@@ -251,11 +299,16 @@ class Campaign:
 
     @cached_property
     def whole_roads(self) -> dict[str, WaveRoad]:
-        """The whole road as it is simulated: under no name, or its random phases under ``drawN/``, or nothing."""
+        """The whole road as it is simulated, or nothing.
+
+        Under no name; or random phases under ``drawN/``, or windows of a measured profile under ``windowN/``.
+        """
+        if self.survey and self.survey.windows and self.multiscale.simulated:
+            return {f"window{number}/": one for number, one in enumerate(self.survey.windows, 1)}
         return self.multiscale.roads(self.road_name, *self._waves)
 
     def whole_scenes(self) -> dict[str, Scene]:
-        """Return every scene of the whole road by name; with random phases, by ``drawN/`` and name."""
+        """Return every scene of the whole road by name; of several roads, by ``drawN/`` or ``windowN/`` and name."""
         grid = product(self.temperatures or (None,), self.velocities, self.pressures)
         preset = self.multiscale.preset
         scenes = [
@@ -263,6 +316,9 @@ class Campaign:
             for temperature, velocity, pressure in grid
             if self.whole_roads
         ]
+        if self.survey and self.survey.windows:
+            aspect = float(f"{self.survey.block_height / self.survey.windows[0].wavelength:.6g}")
+            scenes = [replace(scene, road=self.survey.windows[0], aspect=aspect) for scene in scenes]
         roads = self.whole_roads.items()
         return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
 
@@ -270,18 +326,22 @@ class Campaign:
         """Return what the total over the scales depends on besides results, as plain values.
 
         Those of ``rubfric.results.whole_road.WholeRoad``. Scales without a common period, of which no whole road is
-        simulated, are judged by the nearest that have one. Of several temperatures that of the figures counts.
+        simulated, are judged by the nearest that have one, windows of a profile by its sines. Of several temperatures
+        that of the figures counts.
         """
         shown = self.figures.temperature
-        roads = self.whole_roads.values() or [WaveRoad.nearest(*self._waves)]
-        return {
+        windows = len(self.survey.windows) if self.survey and self.multiscale.simulated else 0
+        roads = (() if windows else self.whole_roads.values()) or [WaveRoad.nearest(*self._waves)]
+        height = self.aspect * max(road.wavelength for road in roads)
+        more = {"windows": windows} if windows else {}
+        return more | {
             "way": self.multiscale.way,
             "accuracy": self.presets[self.multiscale.preset].accuracy,
             "material": asdict(self.material if shown is None else rubber_at(self.material, self.shift, shown)),
             "plane": self.plane,
             "kinematics": self.kinematics,
             "aspect": self.aspect,
-            "height": self.aspect * max(road.wavelength for road in roads),
+            "height": self.survey.block_height if self.survey and windows else height,
             "roads": [asdict(road) for road in roads],
         }
 
@@ -351,13 +411,19 @@ class Campaign:
         """
         if self.rig:
             check_area("rig.virtual.area", self.rig.virtual.area)
-        warm = {one: rubber_at(self.material, self.shift, one) for one in self.temperatures}
-        return check_plausible(self.material, self.road, self.velocities, self.pressures, warm)
+
+        def found(one: Campaign) -> list[str]:
+            warm = {at: rubber_at(one.material, one.shift, at) for at in one.temperatures}
+            where = f"road {one.road_name}" if self.others else "the road"
+            return check_plausible(one.material, one.road, one.velocities, one.pressures, warm, where)
+
+        return list(dict.fromkeys(chain(*gathered(found, self.pairs.values()))))
 
     def choices(self) -> dict[str, Any]:
-        """Return, as a config has them, the folder of the results and the sections that depend on the grid."""
+        """Return, as a config has them, folder of the results, rubber, road, and what depends on the grid."""
         sections = {name: getattr(self, name) for name in EXTRAS}
-        plain = {"results": self.results} | {name: one and one.model_dump() for name, one in sections.items()}
+        about = {"results": self.results, "rubber": self.material.name, "road": self.road_name}
+        plain = about | {name: one and one.model_dump() for name, one in sections.items()}
         if self.figures.temperature is None:
             del plain["figures"]["temperature"]
         return plain

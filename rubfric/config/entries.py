@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
@@ -166,11 +166,55 @@ class Scales(Catalogue):
 
 @dataclass(frozen=True)
 class Named(Word):
-    """The name of an entry elsewhere in the config, which is looked up when the whole config has been read."""
+    """The name of an entry elsewhere in the config, which is looked up when the whole config has been read.
+
+    Parameters
+    ----------
+    several : bool
+        Whether a list of names will do as well.
+    """
+
+    several: bool = False
 
     def check(self, key: str, value: Any) -> Any:
-        """Return ``value`` as it is."""
-        return value
+        """Return ``value`` as it is; a list as a tuple."""
+        listed = self.several and isinstance(value, (list, tuple))
+        return Items("", Word(), ascending=False).check(key, value) if listed else value
+
+    def _schema(self) -> dict[str, Any]:
+        word = super()._schema()
+        listed = {"type": "array", "minItems": 1, "uniqueItems": True, "items": word}
+        return {"anyOf": [word, listed]} if self.several else word
+
+
+def gathered(read: Callable[[Any], Any], given: Iterable[Any]) -> list[Any]:
+    """Return what is read of each of some values.
+
+    Parameters
+    ----------
+    read : callable
+    given : iterable
+
+    Raises
+    ------
+    InvalidInput
+        The faults of all, each once.
+    """
+    found: list[Any] = []
+    faulty: list[str] = []
+    for one in given:
+        try:
+            found.append(read(one))
+        except InvalidInput as error:
+            faulty += error.faults
+    if faulty:
+        raise InvalidInput(*dict.fromkeys(faulty))
+    return found
+
+
+def names(value: Any) -> tuple[Any, ...]:
+    """Return the names of a key that may have one or a list of them."""
+    return tuple(value) if isinstance(value, (list, tuple)) else (value,)
 
 
 def keys(source: type, names: Iterable[str], defaults: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:

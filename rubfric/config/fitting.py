@@ -59,14 +59,14 @@ def fitted_rubber(name: str, entry: MeasuredRubber, kept: str | os.PathLike[str]
     try:
         found = _fit(digest, name, entry)
     except InvalidInput as error:
-        raise InvalidInput(*(f"{key}: {_in_config(fault)}" for fault in error.faults)) from error
+        raise InvalidInput(*(f"{key}: {in_config(fault)}" for fault in error.faults)) from error
     if place:
         with whole(place) as part:
             part.write_text(json.dumps({"digest": digest, "rubber": found.parameters()}), encoding="utf-8")
     return replace(found, source=entry.measurements)
 
 
-def _in_config(words: str) -> str:
+def in_config(words: str) -> str:
     """Return words that name options of ``rubfric rubber fit`` with the keys that do the same here."""
     words = words.replace(" in the YAML file of --columns", "").replace("--master", "data: master")
     words = re.sub(r"--(modulus|law) (\w+)", r"\1: \2", words)
@@ -104,7 +104,7 @@ def _fit(digest: str, name: str, entry: MeasuredRubber) -> FittedRubber:
         _FITTED[digest] = replace(
             found,
             material=replace(found.material, density=entry.density),
-            warnings=tuple(map(_in_config, found.warnings)),
+            warnings=tuple(map(in_config, found.warnings)),
         )
     return _FITTED[digest]
 

@@ -17,6 +17,7 @@ from pydantic import Discriminator, Tag, create_model, model_validator
 
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
 from rubfric.config.measured import MeasuredRubber
+from rubfric.config.measured_road import MeasuredRoad
 from rubfric.config.multiscale import WAYS
 from rubfric.config.place import Place
 from rubfric.config.rig import RigChoice
@@ -201,6 +202,13 @@ def _sound(rubber: Any) -> Any:
     return rubber
 
 
+def _kind_of_road(given: Any) -> str:
+    """Return the tag of a road that is measured, or of a list of scales, as which a single scale is taken too."""
+    single = isinstance(given, Mapping) and set(given) <= set(Scale.model_fields)
+    measured = isinstance(given, (MeasuredRoad, Mapping)) and not single
+    return f"{HERE}{'measured' if measured else 'scales'}"
+
+
 def _kind_of_rubber(given: Any) -> str:
     """Return the tag of a rubber that is measured, by its key or one that is misspelt, or of one that is given."""
     keys = given if isinstance(given, Mapping) else ()
@@ -269,8 +277,17 @@ class Config(Entry):
     """A campaign of sliding simulations. Numbers are canonical to twelve digits; lists may come in any order."""
 
     results: Annotated[str, Place("Folder of all outputs, created where it is missing.", "folder")]
-    rubber: Annotated[str, Named("Name of the rubber in use, one of those under rubbers.")]
-    road: Annotated[str, Named("Name of the road in use, one of those under roads.")]
+    rubber: Annotated[
+        Any,
+        Named(
+            "Name of the rubber in use, one of those under rubbers; or several, which are compared on every road: all "
+            "other tables and figures are of the first.",
+            several=True,
+        ),
+    ]
+    road: Annotated[
+        Any, Named("Name of the road in use, one of those under roads; or several, likewise.", several=True)
+    ]
     plane: Annotated[str, Choice("Plane stress (the paper's CPS4R) or plane strain.", PLANES)]
     kinematics: Annotated[
         str,
@@ -313,6 +330,17 @@ class Config(Entry):
         Catalogue("Rubbers by name: by their Prony series, or by the file of measured moduli that it is fitted to."),
     ]
     roads: Annotated[
-        dict[str, Annotated[list[Scale], Scales("Scales of a road, from coarse to fine; scale 1 is the first.")]],
-        Catalogue("Roads by name."),
+        dict[
+            str,
+            Annotated[
+                Annotated[
+                    list[Scale],
+                    Scales("Scales of a road, from coarse to fine; scale 1 is the first."),
+                    Tag(f"{HERE}scales"),
+                ]
+                | Annotated[MeasuredRoad, Tag(f"{HERE}measured")],
+                Discriminator(_kind_of_road),
+            ],
+        ],
+        Catalogue("Roads by name: by their scales, or by the file of a measured profile."),
     ]

@@ -23,6 +23,8 @@ EXTRAS = {
     "rig": ("pressures", "speeds"),
     "claims": (),
 }
+# The catalogues whose entries may be files of what was measured, and the key of the file.
+_MEASURED = {"rubbers": "measurements", "roads": "profile"}
 # As many values as a file may hold, what its aliases stand for counted where they stand.
 _MOST_VALUES = 100_000
 # What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
@@ -53,11 +55,11 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if wrong:
         raise InvalidInput(f"{os.fspath(path)} {wrong}")
-    return _beside(held, Path(path).parent, lambda given, beside: beside)
+    return _beside(held, Path(path).parent, lambda given, beside, catalogue, key: beside)
 
 
 def placed(config: Any, paths: Iterable[str | os.PathLike[str]]) -> Any:
-    """Return a config that another program has read from YAML files, with files of measured rubbers as from there.
+    """Return a config that another program has read from YAML files, with files of what was measured as from there.
 
     Parameters
     ----------
@@ -66,29 +68,32 @@ def placed(config: Any, paths: Iterable[str | os.PathLike[str]]) -> Any:
         The files, each laid over the ones before.
     """
     for path in reversed([*paths]):
-        rubbers = _rubbers(read_yaml(path))
+        written = read_yaml(path)
 
-        def found(given: str, beside: str, rubbers: Mapping[str, Any] = rubbers) -> str:
-            held = [entry.get("measurements") for entry in rubbers.values() if isinstance(entry, Mapping)]
+        def found(given: str, beside: str, catalogue: str, key: str, written: Any = written) -> str:
+            entries = _catalogue(written, catalogue).values()
+            held = [entry.get(key) for entry in entries if isinstance(entry, Mapping)]
             return beside if beside in held else given
 
         config = _beside(config, Path(path).parent, found)
     return config
 
 
-def _rubbers(config: Any) -> Mapping[str, Any]:
-    rubbers = config.get("rubbers") if isinstance(config, Mapping) else None
-    return rubbers if isinstance(rubbers, Mapping) else {}
+def _catalogue(config: Any, name: str) -> Mapping[str, Any]:
+    entries = config.get(name) if isinstance(config, Mapping) else None
+    return entries if isinstance(entries, Mapping) else {}
 
 
-def _beside(config: Any, folder: Path, choose: Callable[[str, str], str]) -> Any:
-    """Return a config in which the files of measured rubbers are chosen, given as they are and as in a folder."""
-    rubbers = dict(_rubbers(config))
-    for name, entry in rubbers.items():
-        given = entry.get("measurements") if isinstance(entry, Mapping) else None
-        if isinstance(given, str) and given and given[0] not in "~$/" and not os.path.isabs(given):
-            rubbers[name] = {**entry, "measurements": choose(given, _from_here(folder / given))}
-    return {**config, "rubbers": rubbers} if rubbers else config
+def _beside(config: Any, folder: Path, choose: Callable[[str, str, str, str], str]) -> Any:
+    """Return a config in which the files of what was measured are chosen, given as they are and as in a folder."""
+    for catalogue, key in _MEASURED.items():
+        entries = dict(_catalogue(config, catalogue))
+        for name, entry in entries.items():
+            given = entry.get(key) if isinstance(entry, Mapping) else None
+            if isinstance(given, str) and given and given[0] not in "~$/" and not os.path.isabs(given):
+                entries[name] = {**entry, key: choose(given, _from_here(folder / given), catalogue, key)}
+        config = {**config, catalogue: entries} if entries else config
+    return config
 
 
 def _no_text(error: UnicodeDecodeError) -> str:

@@ -79,16 +79,18 @@ def page(config: dict[str, Any]) -> str:
 def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple[str, ...]]:
     """Yield the cells of every key below a model that holds a value, given the config's entries there, by name."""
     for name, field in model.model_fields.items():
-        models, mark = _below(field.annotation)
+        models = _below(field.annotation)
         inner: Any = {
             label: [item[name] for item in entry] if isinstance(entry, list) else entry[name]
             for label, entry in values.items()
             if all(name in item for item in (entry if isinstance(entry, list) else [entry]))
         }
-        for below in models:
+        for below, mark in models:
             held: dict[str, Any] = inner[""] if mark else inner
             if len(models) > 1:
-                held = {label: entry for label, entry in held.items() if set(entry) <= set(below.model_fields)}
+                keys = set(below.model_fields)
+                held = {label: entry for label, entry in held.items() if isinstance(entry, list) or set(entry) <= keys}
+                held = {label: entry for label, entry in held.items() if isinstance(entry, list) == mark.endswith("]")}
             yield from _keys(below, held, f"{at}{name}{mark}.")
         if models:
             continue
@@ -101,18 +103,16 @@ def _keys(model: type[Entry], values: dict[str, Any], at: str) -> Iterator[tuple
         yield f"`{at}{name}`", field.metadata[0].about, unit, _allowed(node) + optional, defaults or missing
 
 
-def _below(annotation: Any) -> tuple[list[type[Entry]], str]:
-    """Return the models of a key whose value has keys of its own, and what stands for free names between the two."""
+def _below(annotation: Any) -> list[tuple[type[Entry], str]]:
+    """Return the models of a key whose value has keys of its own, each with what stands for free names in between."""
     annotation = _given(annotation)
     if get_origin(annotation) is not dict:
-        return ([annotation] if isinstance(annotation, type) and issubclass(annotation, Entry) else []), ""
+        return [(annotation, "")] if isinstance(annotation, type) and issubclass(annotation, Entry) else []
     entry = get_args(annotation)[1]
     if isinstance(entry, type):
-        return ([entry] if issubclass(entry, Entry) else []), ".*"
-    inside = get_args(entry)[0]
-    if get_origin(inside) is list:
-        return [get_args(inside)[0]], ".*[]"
-    return [get_args(kind)[0] for kind in get_args(inside)], ".*"
+        return [(entry, ".*")] if issubclass(entry, Entry) else []
+    kinds = [get_args(kind)[0] for kind in get_args(get_args(entry)[0])]
+    return [(get_args(kind)[0], ".*[]") if get_origin(kind) is list else (kind, ".*") for kind in kinds]
 
 
 def _about(name: str) -> str:
@@ -144,6 +144,8 @@ def _default(value: Any) -> str:
 
 def _allowed(node: dict[str, Any]) -> str:
     """Return in words what a node of the schema allows."""
+    if "anyOf" in node:
+        return ", or ".join(map(_allowed, node["anyOf"]))
     if "enum" in node:
         return " or ".join(f"`{word}`" for word in node["enum"])
     if node["type"] == "array":

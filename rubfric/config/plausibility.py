@@ -35,6 +35,7 @@ def check_plausible(
     velocities: Sequence[float],
     pressures: Sequence[float],
     warm: Mapping[float, Material] | None = None,
+    where: str = "the road",
 ) -> list[str]:
     """Return what is unlikely, in a sentence each that names the unit that may have been meant.
 
@@ -49,6 +50,8 @@ def check_plausible(
         MPa.
     warm : mapping of float to Material, optional
         The rubber at each temperature, degC, at which it is simulated; by default as it is given.
+    where : str
+        What sentences call the road.
 
     Raises
     ------
@@ -59,7 +62,7 @@ def check_plausible(
     unlikely: list[str] = []
     moduli = _moduli(material)
     loads = [] if moduli else _loads(material, pressures)  # of another modulus they say nothing
-    for found in (moduli, _times(material), _heights(road), loads):
+    for found in (moduli, _times(material), _heights(road, where), loads):
         for cannot_be, sentence in found:
             (refused if cannot_be else unlikely).append(sentence)
     if refused:
@@ -71,8 +74,8 @@ def check_plausible(
     ]
     rubbers = {f"{material.name} at {one:g} degC": each for one, each in (warm or {}).items()}
     for name, rubber in rubbers.items():
-        unlikely += _losses(name, rubber, road, velocities, _OF_SHIFTED)
-    return unlikely if warm else [*unlikely, *_losses(material.name, material, road, velocities)]
+        unlikely += _losses(name, rubber, road, velocities, where, _OF_SHIFTED)
+    return unlikely if warm else [*unlikely, *_losses(material.name, material, road, velocities, where)]
 
 
 def check_area(key: str, area: float) -> float:
@@ -140,11 +143,11 @@ def _times(material: Material) -> list[tuple[bool, str]]:
     return found
 
 
-def _heights(road: Sequence[SineScale]) -> list[tuple[bool, str]]:
+def _heights(road: Sequence[SineScale], where: str) -> list[tuple[bool, str]]:
     found = []
     for number, scale in enumerate(road, 1):
         slope, amplitude, length = scale.steepest_slope, scale.amplitude, scale.wavelength
-        at = f"scale {number} of the road, amplitude {amplitude:.4g} mm and wavelength {length:.4g} mm,"
+        at = f"scale {number} of {where}, amplitude {amplitude:.4g} mm and wavelength {length:.4g} mm,"
         if slope > _STEEP:
             bound = f"but must be below {_CLIFF:g}" if slope > _CLIFF else "steeper than any road"
             unit = (
@@ -187,6 +190,7 @@ def _losses(
     material: Material,
     road: Sequence[SineScale],
     velocities: Sequence[float],
+    where: str,
     why: tuple[str, str] = ("are relaxation_times in s?", "is it in ms?"),
 ) -> list[str]:
     """Say where the rubber is elastic at the frequencies that the road excites, and why that may be."""
@@ -196,15 +200,15 @@ def _losses(
     frequencies = np.geomspace(low * min(velocities), high * max(velocities), 64)
     shear = material.complex_shear_modulus(frequencies)
     shortest = min(material.relaxation_times)
-    where = f"the road excites it at {frequencies[0]:.2g} to {frequencies[-1]:.2g} rad/s"
+    excited = f"{where} excites it at {frequencies[0]:.2g} to {frequencies[-1]:.2g} rad/s"
     if float((shear.imag / shear.real).max()) < _LOSSLESS:
         return [
-            f"rubber {name} dissipates next to nothing, since {where}, and relaxes within {shortest:.2g} to "
+            f"rubber {name} dissipates next to nothing, since {excited}, and relaxes within {shortest:.2g} to "
             f"{max(material.relaxation_times):.2g} s: {why[0]}"
         ]
     if shortest * frequencies[-1] > 10.0:
         return [
-            f"rubber {name} is elastic at the highest speeds: {where}, and its shortest relaxation time is "
+            f"rubber {name} is elastic at the highest speeds: {excited}, and its shortest relaxation time is "
             f"{shortest:.2g} s: {why[1]}"
         ]
     return []

@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.entries import names
 from rubfric.config.measured import MeasuredRubber
+from rubfric.config.measured_road import MeasuredRoad
 from rubfric.config.models import (
     AspectStudy,
     ClaimsChoice,
@@ -77,7 +79,11 @@ def references(sections: Mapping[str, Any]) -> list[str]:
 
     for name, catalogue in (("rubber", "rubbers"), ("road", "roads"), ("multiscale_preset", "presets")):
         if {name, catalogue} <= set(sections):
-            look(Choice(words=sections[catalogue]).check, name, sections[name])
+            given, keyed = sections[name], [(name, sections[name])]
+            if catalogue != "presets" and isinstance(given, tuple):
+                keyed = [(f"{name}[{place}]", one) for place, one in enumerate(given)]
+            for key, one in keyed:
+                look(Choice(words=sections[catalogue]).check, key, one)
     presets, claims = sections.get("presets"), sections.get("claims")
     if presets and "numerics" in sections:
         look(_numerics, sections["numerics"], presets)
@@ -86,18 +92,36 @@ def references(sections: Mapping[str, Any]) -> list[str]:
             look(Choice(words=presets).check, "claims.preset", claims.preset)
         for name in claims.compare:
             look(Choice(words=claims.readings).check, "claims.compare", name)
-    if {"road", "roads"} <= set(sections) and not any(fault.startswith("road ") for fault in found):
+    known = _known(sections, "road", "roads")
+    if known:  # what has a number of a scale is made of the first road
         for key, number in _scales(sections):
-            look(scale_number, key, number, len(sections["roads"][sections["road"]]))
-    known = not any(fault.startswith("rubber ") for fault in found)
-    if known and {"rubber", "rubbers", "grid"} <= set(sections):
-        rubber = sections["rubber"]
+            road = sections["roads"][known[0]]
+            look(scale_number, key, number, road.scales if isinstance(road, MeasuredRoad) else len(road))
+        for road in known if "phases" in sections else ():
+            look(_phases, road, sections["roads"], sections["phases"].draws)
+    for rubber in _known(sections, "rubber", "rubbers") if "grid" in sections else ():
         entry = sections["rubbers"][rubber]
         if not isinstance(entry, MeasuredRubber):  # of which the fit tells how far the shift factors reach
             look(check_temperatures, *rubber_of(rubber, entry.given()), sections["grid"].temperatures)
     if sections.get("grid") and sections.get("figures"):
         look(_on_grid, sections["grid"], sections["figures"])
     return found
+
+
+def _phases(name: str, roads: Mapping[str, Any], draws: int) -> None:
+    """Windows of a measured profile have the phases that they have."""
+    road = roads[name]
+    if isinstance(road, MeasuredRoad) and road.windows and draws:
+        raise InvalidInput(
+            f"phases.draws is {draws}, but must be 0 where roads.{name} has windows, which are several roads already: "
+            "without windows its sines have random phases"
+        )
+
+
+def _known(sections: Mapping[str, Any], name: str, catalogue: str) -> tuple[str, ...]:
+    """Return the names that a key has; none where one of them is no entry of its catalogue."""
+    given, entries = names(sections.get(name, ())), sections.get(catalogue, {})
+    return given if all(isinstance(one, str) and one in entries for one in given) else ()
 
 
 def _scales(sections: Mapping[str, Any]) -> list[tuple[str, int]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,21 @@ Array = NDArray[np.float64]
 
 _BAND = "error"
 _OPACITY = 0.28
+# Of the innermost and the outermost of several bands.
+_INNER, _OUTER = 0.55, 0.2
 # The width of the bar of a point without neighbours, points.
 _BAR = 3.0
 
 
-def draw_band(panel: Axes, places: Array, values: Array, errors: Array, colour: Any, zorder: float = 1.5) -> None:
+def draw_band(
+    panel: Axes,
+    places: Array,
+    values: Array,
+    errors: Array,
+    colour: Any,
+    zorder: float = 1.5,
+    opacity: float | None = None,
+) -> None:
     """Draw a band from ``values - errors`` to ``values + errors``; where a point has no neighbour, a bar.
 
     Parameters
@@ -32,8 +42,10 @@ def draw_band(panel: Axes, places: Array, values: Array, errors: Array, colour: 
     colour : matplotlib colour
     zorder : float
         Lines have 2.
+    opacity : float, optional
+        From 0 to 1; that of a single band by default.
     """
-    look: dict[str, Any] = {"color": colour, "alpha": _OPACITY, "gid": _BAND, "zorder": zorder}
+    look: dict[str, Any] = {"color": colour, "alpha": opacity or _OPACITY, "gid": _BAND, "zorder": zorder}
     for run in runs(np.isfinite(values) & np.isfinite(errors)):
         x, low, high = places[run], values[run] - errors[run], values[run] + errors[run]
         if x.size > 1:
@@ -72,6 +84,56 @@ def band_handle(values: Array, errors: Array, colour: Any = "0.3", rubber: Array
     if unknown:
         words += f",\nunknown at {unknown} of {np.count_nonzero(shown)} points"
     return Patch(facecolor=colour, alpha=_OPACITY, linewidth=0.0, label=words)
+
+
+def draw_parts(panel: Axes, places: Array, values: Array, parts: Sequence[Array], zorder: float = 1.5) -> None:
+    """Draw bands of black for the parts of an error, each outside of those before it and paler than they.
+
+    Parameters
+    ----------
+    panel : matplotlib.axes.Axes
+    places, values : numpy.ndarray, each of shape (points,)
+        Abscissa and friction coefficients.
+    parts : sequence of numpy.ndarray, each of shape (points,)
+        Absolute errors that add up to the whole one; as in ``draw_band``, nothing is drawn where one is not finite.
+    zorder : float
+        Lines have 2.
+    """
+    if len(parts) == 1:
+        draw_band(panel, places, values, parts[0], "black", zorder)
+        return
+    whole, clear = np.cumsum(parts, axis=0), 1.0
+    for error, opacity in zip(whole[::-1], _opacities(len(parts))[::-1], strict=True):
+        layer = 1.0 - (1.0 - opacity) / clear  # upon what is drawn already
+        draw_band(panel, places, values, np.where(np.isfinite(whole[-1]), error, np.nan), "black", zorder, layer)
+        clear = 1.0 - opacity
+
+
+def part_handles(values: Array, parts: Mapping[str, Array]) -> list[Patch]:
+    """Return the legend's entries for the bands of ``draw_parts``, each with the largest of its part alone.
+
+    Parameters
+    ----------
+    values : numpy.ndarray, shape (points,)
+        All friction coefficients that a figure shows.
+    parts : mapping of str to numpy.ndarray of that shape
+        What each part comes from, in words; one part alone is called the estimated error.
+    """
+    if len(parts) == 1:
+        return [band_handle(values, next(iter(parts.values())), "black")]
+    shown = np.abs(values) > NEGLIGIBLE
+    handles: list[Patch] = []
+    for (words, error), opacity in zip(parts.items(), _opacities(len(parts)), strict=True):
+        known = shown & np.isfinite(error)
+        most = f",\nat most {percent(float(np.max(np.abs(error[known] / values[known]))))}" if known.any() else ""
+        label = f"{'+' if handles else 'error:'} {words}{most}"
+        handles.append(Patch(facecolor="black", alpha=opacity, linewidth=0.0, label=label))
+    return handles
+
+
+def _opacities(count: int) -> list[float]:
+    """Return how opaque so many bands look, each outside of the one before it."""
+    return np.linspace(_INNER, _OUTER, count).tolist()
 
 
 def upper(values: Array, errors: Array) -> Array:

@@ -54,9 +54,16 @@ def draw_block(panel: Axes, block: DeformedBlock, norm: LogNorm, net: bool = Tru
     density = np.maximum(block.density, np.finfo(np.float64).tiny)
     panel.pcolormesh(block.x, block.y, density, cmap=_MAP, norm=norm, shading="gouraud", rasterized=True, zorder=0.5)
     if net:
-        panel.add_collection(LineCollection([line.T for line in block.net], zorder=0.6, **_NET), autolim=False)
+        seen = [line.T for line in block.net if _meets(line, panel)]
+        panel.add_collection(LineCollection(seen, zorder=0.6, **_NET), autolim=False)
     for face, name in ((block.lower_face, "lower face"), (block.upper_face, "upper face")):
         panel.plot(*face, color="black", linewidth=0.6, gid=name)
+
+
+def _meets(line: Real, panel: Axes) -> bool:
+    """Return whether the box around a line, shape (2, points), meets the limits of a panel."""
+    limits = (panel.get_xlim(), panel.get_ylim())
+    return all(part.max() >= low and part.min() <= high for part, (low, high) in zip(line, limits, strict=True))
 
 
 def draw_road(panel: Axes, x: Real, height: Real, hatched: bool = True) -> None:

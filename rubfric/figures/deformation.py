@@ -27,6 +27,8 @@ VARIABLES = (
 _FIELDS = VARIABLES[:-1]
 # Width of the squares of the net over that of the block.
 _PITCH = 0.125
+# The width of the magnified part of a road in coarsest wavelengths; of a measured one in finest.
+_SPOT, _FINEST = 0.75, 10.0
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,21 @@ def is_finite(result: xr.Dataset) -> bool:
 def profile(result: xr.Dataset) -> WaveRoad:
     """Return the road of a scene on a whole road, of a refused one too."""
     return WaveRoad(**json.loads(result.attrs["scene_parameters"])["road"])
+
+
+def spot_width(road: WaveRoad, windows: bool) -> float:
+    """Return the width of the part of a whole road that is magnified, mm.
+
+    Parameters
+    ----------
+    road : WaveRoad
+    windows : bool
+        Whether it is a window of a measured profile, whose coarsest wave is as long as the window: then it holds the
+        finest waves some times; else three quarters of the coarsest.
+    """
+    if not windows:
+        return _SPOT * road.wavelength
+    return min(_FINEST * 2.0 * math.pi / max(road.wavenumbers), 0.25 * road.period)
 
 
 def deform(result: xr.Dataset, left: float, right: float, pitch: float | None = None) -> DeformedBlock:

@@ -17,7 +17,7 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 
 from rubfric.figures import deformation, style
 from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, contacts, draw_block, draw_road
-from rubfric.figures.deformation import DeformedBlock, deform, is_finite, profile
+from rubfric.figures.deformation import DeformedBlock, deform, is_finite, profile, spot_width
 from rubfric.figures.panels import letter
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed, check_results
 from rubfric.figures.temperature import temperature_words
@@ -33,15 +33,16 @@ _TOUCH: dict[str, Any] = {"color": "#e8601c", "solid_capstyle": "round", "gid": 
 _FRAME: dict[str, Any] = {"edgecolor": "black", "linewidth": 0.5, "zorder": 3.2}
 # Points of the road in a panel, and among which its highest crest is found.
 _POINTS, _FINE = 1200, 16384
-# The width of the spot in coarsest wavelengths; its margins above the crest and below the lowest road, in its widths.
-_SPOT, _ABOVE, _UNDER = 0.75, 0.24, 0.2
-# The margins of the strip above the block and below the road, in coarsest wavelengths.
-_SKY, _SOLID = 0.06, 0.12
-# Lines of the net to a coarsest wavelength.
-_LINES = 16
+# The margins of the spot above the crest and below the lowest road, in its widths.
+_ABOVE, _UNDER = 0.24, 0.2
+# The margins of the strip above the block and below the road, in coarsest wavelengths, or in heights of a block flatter
+# than a share of that: the coarsest wave of a window of a measured road is as long as the window.
+_SKY, _SOLID, _FLAT = 0.06, 0.12, 0.4
+# Lines of the net to the width of a spot.
+_LINES = 12
 # In inches: margins, the gaps beside and below a panel and between its strip and its spot, and the widest panel.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.5, 0.72, 0.24, 0.1, 0.105
-_BESIDE, _BELOW, _BETWEEN, _WIDEST = 0.1, 0.16, 0.1, 2.4
+_BESIDE, _BELOW, _BETWEEN, _WIDEST, _LONGEST = 0.1, 0.16, 0.1, 2.4, 3.0
 _SMALL, _SMALLEST = 6.0, 5.5
 # Letters of small type to an inch, and the most lines of the reason of a refusal.
 _LETTERS, _LINES_OF_REASON = 24, 4
@@ -76,7 +77,7 @@ class _Sheet:
 
 
 @style.applied()
-def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
+def draw(results: Sequence[xr.Dataset], draws: int = 0, windows: bool = False) -> Figure:
     """Draw the block on one period of the road, and a spot of its contact magnified, by pressure and speed.
 
     Parameters
@@ -86,6 +87,8 @@ def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
         speed; a scene that was refused or not needed has the attribute ``refusal``, which its panel says instead.
     draws : int
         How many roads with random phases were simulated, of which this is the first; 0 where the phases are given.
+    windows : bool
+        Whether they are windows of a measured profile instead.
 
     Returns
     -------
@@ -106,14 +109,15 @@ def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
         check_results("result", solved, (), _VARIABLES, ())
     grid = by_pressure_and_speed(results, ())
     road = profile(results[0])
+    wide = spot_width(road, windows)
     blocks = {
-        place: deform(result, 0.0, road.period, road.wavelength / _LINES)
+        place: deform(result, 0.0, road.period, wide / _LINES)
         for place, result in grid.results.items()
         if REFUSAL not in result.attrs
     }
-    strip, spot = _views(road, float(results[0].attrs["aspect"]), list(blocks.values()))
+    strip, spot = _views(road, float(results[0].attrs["aspect"]), list(blocks.values()), wide)
     norm = colour_scale(solved)
-    sheet = _sheet(grid, strip, spot, draws)
+    sheet = _sheet(grid, strip, spot, draws, windows)
     figure = Figure(figsize=(sheet.width, sheet.height))
     for number, place in enumerate(product(grid.pressures, grid.speeds)):
         upper, lower = (_panel(figure, sheet, grid, number, view) for view in (strip, spot))
@@ -128,38 +132,44 @@ def draw(results: Sequence[xr.Dataset], draws: int = 0) -> Figure:
     return figure
 
 
-def _views(road: WaveRoad, aspect: float, blocks: Sequence[DeformedBlock]) -> tuple[_View, _View]:
-    """Return what strips and spots show: a period of the road, and the surroundings of its highest crest."""
+def _views(road: WaveRoad, aspect: float, blocks: Sequence[DeformedBlock], wide: float) -> tuple[_View, _View]:
+    """Return what strips and spots show: a period of the road, and the surroundings of its highest crest, mm."""
     coarse, period = road.wavelength, road.period
     x = np.linspace(0.0, period, _FINE)
     heights = road.height(x)
     highest = max((float(block.y.max()) for block in blocks), default=aspect * coarse)
-    strip = _View(0.0, period, float(heights.min()) - _SOLID * coarse, highest + _SKY * coarse)
-    wide = _SPOT * coarse
+    high = highest - float(heights.min())
+    margin = high if high < _FLAT * coarse else coarse
+    strip = _View(0.0, period, float(heights.min()) - _SOLID * margin, highest + _SKY * margin)
     left = min(max(float(x[np.argmax(heights)]) - 0.5 * wide, 0.0), period - wide)
     seen = heights[(x >= left) & (x <= left + wide)]
     return strip, _View(left, left + wide, float(seen.min()) - _UNDER * wide, float(seen.max()) + _ABOVE * wide)
 
 
-def _sheet(grid: SceneGrid, strip: _View, spot: _View, draws: int) -> _Sheet:
+def _sheet(grid: SceneGrid, strip: _View, spot: _View, draws: int, windows: bool) -> _Sheet:
     rows, columns = len(grid.pressures), len(grid.speeds)
-    panel = min((style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _BESIDE) / columns, _WIDEST)
+    room = (style.DOUBLE_COLUMN - _LEFT - _RIGHT - (columns - 1) * _BESIDE) / columns
+    panel = min(room, _LONGEST if windows else _WIDEST)
     width = _LEFT + _RIGHT + columns * panel + (columns - 1) * _BESIDE
-    note = textwrap.wrap(_note(grid, strip, spot, draws), int(19.0 * (width - 0.1)))
+    note = textwrap.wrap(_note(grid, strip, spot, draws, windows), int(19.0 * (width - 0.1)))
     bottom = _BOTTOM + _NOTE_LINE * len(note)
     row = panel * (strip.proportion + spot.proportion) + _BETWEEN
     height = _TOP + bottom + rows * row + (rows - 1) * _BELOW
     return _Sheet(width, height, panel, panel * strip.proportion, panel * spot.proportion, bottom, "\n".join(note))
 
 
-def _note(grid: SceneGrid, strip: _View, spot: _View, draws: int) -> str:
+def _note(grid: SceneGrid, strip: _View, spot: _View, draws: int, windows: bool) -> str:
     wide, narrow = strip.right - strip.left, spot.right - spot.left
     solved = [result for result in grid.results.values() if REFUSAL not in result.attrs]
-    note = [
-        f"A period of the road, {wide:.3g} mm, and the framed spot, {narrow:.2g} mm, {wide / narrow:.2g} times larger."
-    ]
-    if draws:
-        note.append(f"The road is the first of {draws} with random phases, and friction that on this road alone.")
+    framed = f"the framed spot, {narrow:.2g} mm, {wide / narrow:.2g} times larger"
+    if windows:
+        high = float(next(iter(grid.results.values())).attrs["aspect"]) * wide
+        note = [f"The first of {draws} windows of the measured road, {wide:.3g} mm of it, made periodic, under a block"]
+        note += [f"{high:.3g} mm high; friction is that on this window alone. Below each, {framed}."]
+    else:
+        note = [f"A period of the road, {wide:.3g} mm, and {framed}."]
+    if draws and not windows:
+        note += [f"The road is the first of {draws} with random phases, and friction that on this road alone."]
     note.append("The block slides to the right; orange: contact.")
     if any(map(is_finite, solved)):
         note.append("Displacements are to scale; the white lines made squares before deformation.")

@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, runs, upper
+from rubfric.figures.bands import part_handles, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.totals import draw_total, other_handles, totals
 from rubfric.results.scales import total_friction
 from rubfric.results.selection import described, friction
 
-_HEIGHT = 3.7
+_HEIGHT, _PART = 3.7, 0.27
 _SUM: dict[str, Any] = {"color": "0.15", "linewidth": 1.0, "linestyle": (0, (4, 2)), "zorder": 2.2}
 # A speed without a neighbour is drawn this far to either side, as a factor.
 _ALONE = 1.25
@@ -70,10 +70,10 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
             f"the campaign has no speed at which all scales were run at {place}, so there is no total to draw"
         )
     found, speeds = totals(table, pressure), shares["velocity"].values
-    figure = Figure(figsize=(style.COLUMN, _HEIGHT), layout="constrained")
+    figure = Figure(figsize=(style.COLUMN, _HEIGHT + _PART * (len(found.parts) - 1)), layout="constrained")
     axes = figure.subplots()
     patches = _stack(axes, speeds, shares)
-    (edge,) = axes.plot(speeds, summed, label="sum of the scales", gid="sum", **_SUM)
+    (edge,) = axes.plot(speeds, summed, label=found.words("sum"), gid="sum", **_SUM)
     line = draw_total(axes, found)
     mark_peak(axes, found.speeds, found.main, "black")
     scale_speeds(axes, np.concatenate([speeds, found.speeds]))
@@ -81,7 +81,7 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     axes.set_xlabel("sliding speed (mm/s)")
     axes.set_ylabel("friction coefficient (-)")
     marks = [*peak_handles(axes), *other_handles([found])]
-    lines = [line, band_handle(found.main, found.error, "black"), *marks, edge]
+    lines = [line, *part_handles(found.main, found.parts), *marks, edge]
     handles = [*_padded(lines, len(patches)), *_padded(patches[::-1], len(lines))]
     panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 2)
     return figure

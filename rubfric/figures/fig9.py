@@ -18,6 +18,7 @@ from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.columns import check_columns
 from rubfric.figures.scaling import scale_friction, scale_speeds, tick_decades
 from rubfric.results.friction_map import FrictionMap
+from rubfric.results.scales import RUBBER_PART
 from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
@@ -80,7 +81,7 @@ def draw(totals: pd.DataFrame, points: pd.DataFrame, pressures: Sequence[float],
     _finish(axes, friction, points, np.concatenate([np.zeros(1), *tallest]))
     for panel, lines, title in ((axes[0], over_speed, "MPa"), (axes[1], over_pressure, "mm/s")):
         _legend(panel, [line[0] for line in lines], title)
-    figure.legend(handles=_kinds(points), loc="outside upper center", ncols=3)
+    figure.legend(handles=_kinds(points, _covers(totals)), loc="outside upper center", ncols=3)
     _note(figure, points, shown)
     return figure
 
@@ -168,13 +169,20 @@ def _legend(panel: Axes, values: Sequence[float], unit: str) -> None:
         )
         for value, look in zip(values, style.lines(len(values)), strict=True)
     ]
-    panel.legend(handles=handles, loc="upper left")
+    panel.legend(handles=handles, loc="upper left", frameon=True, framealpha=0.8, edgecolor="none", borderpad=0.2)
 
 
-def _kinds(points: pd.DataFrame) -> list[Line2D]:
+def _covers(totals: pd.DataFrame) -> str:
+    """Return what the error of totals covers besides that of mesh, solver and models."""
+    parts = {"friction_road_error": "the road", RUBBER_PART: "the rubber's data"}
+    known = [words for name, words in parts.items() if name in totals and totals[name].notna().any()]
+    return f", that from {' and '.join(known)} included" if known else ""
+
+
+def _kinds(points: pd.DataFrame, covers: str) -> list[Line2D]:
     """Return what lines and points are."""
     grey: dict[str, Any] = {"color": "0.25"}
-    handles: list[Any] = [Line2D([], [], label="simulated, with the band of its estimated error", **grey)]
+    handles: list[Any] = [Line2D([], [], label=f"simulated, with the band of its estimated error{covers}", **grey)]
     for source in sorted(set(points["source"])):
         face = "0.25" if source == "measured" else "white"
         words = f"{_WORDS[source]}, 95\N{NO-BREAK SPACE}% confidence"

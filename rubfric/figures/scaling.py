@@ -67,6 +67,15 @@ def scale_decades(axes: Axes, low: float, high: float) -> None:
     tick_decades(axes.yaxis, low, high)
 
 
+def plain(value: float) -> str:
+    """Return a number as a tick has it: where it needs an exponent, with a minus sign in that."""
+    mantissa, _, exponent = written(value).partition("e")
+    if not exponent:
+        return mantissa
+    power = f"10^{{{int(exponent)}}}"
+    return f"${power}$" if mantissa == "1" else rf"${mantissa}\times {power}$"
+
+
 def tick_decades(axis: Axis, low: float, high: float) -> None:
     """Put plain numbers on a logarithmic axis: at powers of ten, and in between where there are few.
 
@@ -80,7 +89,7 @@ def tick_decades(axis: Axis, low: float, high: float) -> None:
     between = (1.0,) if decades > 4.0 else (1.0, 2.0, 5.0) if decades > 0.8 else tuple(np.arange(1.0, 10.0))
     axis.set_major_locator(LogLocator(10.0, subs=between, numticks=25))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
 
 
 def tick_at(axis: Axis, places: Sequence[float]) -> None:
@@ -94,4 +103,4 @@ def tick_at(axis: Axis, places: Sequence[float]) -> None:
     """
     axis.set_major_locator(FixedLocator(list(places)))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))

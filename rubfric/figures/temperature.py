@@ -8,9 +8,16 @@ from rubfric.figures import panels, style
 from rubfric.results.selection import written
 
 
+def signed(temperature: float) -> str:
+    """Return a temperature as figures have it, with a minus sign and no hyphen."""
+    return written(temperature).replace("-", "\N{MINUS SIGN}")
+
+
 def temperature_words(temperature: float | None) -> list[str]:
     """Return the sentence of a note on a temperature in degC; none where there is none."""
-    return [] if temperature is None else [f"Rubber at {written(temperature)} °C."]
+    if temperature is None:
+        return []
+    return [f"Rubber at {signed(temperature)} °C."]
 
 
 def name_temperature(figure: Figure, temperature: float | None) -> Figure:

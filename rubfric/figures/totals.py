@@ -14,10 +14,10 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
-from rubfric.figures.bands import draw_band
+from rubfric.figures.bands import draw_band, draw_parts
 from rubfric.figures.columns import check_columns
-from rubfric.results.scales import AXES, TOTAL
-from rubfric.results.selection import written
+from rubfric.results.scales import AXES, RUBBER_PART, TOTAL
+from rubfric.results.selection import WINDOWS, written
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,11 @@ WAYS = {
     "cascade": "cascade from scale to scale",
     "persson": "Persson's theory",
 }
-_HALO, _ASIDE = "white", "black"
+# The direct one of a road that is a measured profile.
+PROFILE = "the profile itself"
+# The columns of the parts of its error that are not of mesh and solver.
+_PIECES = ("friction_coupling_error", "friction_road_error", RUBBER_PART)
+_HALO = "white"
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,14 @@ class Totals:
         How each total was obtained.
     friction, errors : dict of numpy.ndarray
         The friction coefficient by each way, and its whole absolute error.
+    pieces : dict of numpy.ndarray
+        The parts of ``error`` besides that of mesh and solver, by column.
     drawn : bool
-        Whether totals are means over roads with random phases, not those of one road.
+        Whether totals are means over roads with random phases, or windows of one, not those of one road.
+    windows : bool
+        Whether they are over windows of a measured profile.
+    count : int
+        Over how many roads at most; 0 where that is not known.
     """
 
     speeds: Array
@@ -56,7 +66,10 @@ class Totals:
     ways: NDArray[np.str_]
     friction: dict[str, Array]
     errors: dict[str, Array]
+    pieces: dict[str, Array]
     drawn: bool
+    windows: bool
+    count: int
 
     @property
     def way(self) -> str:
@@ -83,7 +96,23 @@ class Totals:
     @property
     def road(self) -> str:
         """Of which road the totals are, in words."""
-        return "mean of random phases" if self.drawn else "one road, these phases"
+        if not self.drawn:
+            return "one road, these phases"
+        many = f"{self.count} " if self.count else ""
+        return f"mean of {many}windows" if self.windows else f"mean of {many}random phases"
+
+    @property
+    def parts(self) -> dict[str, Array]:
+        """The parts of the error of ``main`` that there are, by what they come from, in words."""
+        few = "so few windows" if self.windows else "so few random phases"
+        pieces = {name: np.where(np.isnan(self.main), 0.0, np.nan_to_num(of)) for name, of in self.pieces.items()}
+        named = dict(zip(_PIECES, ("the coupling of the scales", few, "the rubber's data"), strict=True))
+        others = {named[name]: part for name, part in pieces.items() if part.any()}
+        return {"mesh and solver": self.error - sum(others.values())} | others
+
+    def words(self, way: str) -> str:
+        """Return a way in words: the windows of a profile are no sum of scales."""
+        return {"direct": PROFILE, "sum": "sum of its sines"}.get(way, WAYS[way]) if self.windows else WAYS[way]
 
 
 def totals(table: pd.DataFrame, pressure: float) -> Totals:
@@ -118,6 +147,9 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
     def column(name: str) -> Array:
         return rows[name].to_numpy(dtype=np.float64)
 
+    notes = rows["note"].astype(str) if "note" in rows else pd.Series("", index=rows.index)
+    windows = bool(notes.str.contains(WINDOWS).any())
+    means = notes.str.extract(r"^mean of (\d+) ", expand=False).dropna().astype(int)
     return Totals(
         speeds=column("velocity_mm_per_s"),
         total=column("friction_total"),
@@ -125,7 +157,10 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
         ways=rows["way"].to_numpy(dtype=np.str_),
         friction={way: column(name) for way, name in friction.items()},
         errors={way: column(name) for way, name in errors.items()},
+        pieces={name: column(name) for name in _PIECES if name in rows},
         drawn=bool(rows["friction_road_error"].notna().any()),
+        windows=windows,
+        count=int(means.max()) if len(means) else 0,
     )
 
 
@@ -143,12 +178,12 @@ def draw_total(panel: Axes, found: Totals) -> Line2D:
         The line, for the legend.
     """
     other = found.other
-    for colour in (_HALO, _ASIDE):
-        draw_band(panel, found.speeds, found.main, found.error, colour, zorder=2.5)
+    draw_band(panel, found.speeds, found.main, found.error, _HALO, zorder=2.5)
+    draw_parts(panel, found.speeds, found.main, list(found.parts.values()), zorder=2.5)
     halo = [withStroke(linewidth=3.2, foreground=_HALO)]
     look: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
     (line,) = panel.plot(
-        found.speeds, found.main, label=f"total: {WAYS[found.way]},\n{found.road}", path_effects=halo, **look
+        found.speeds, found.main, label=f"total: {found.words(found.way)},\n{found.road}", path_effects=halo, **look
     )
     if other.any():
         place, value, error = (values[other] for values in (found.speeds, found.total, found.error))

@@ -113,7 +113,7 @@ def _number(row: pd.Series) -> str:
 def _percent(value: float, error: float = math.nan) -> str:
     """Return a share in per cent, its error beside it where there is one."""
     spread = "" if math.isnan(error) or error == 0.0 else f" ± {100.0 * error:.2g}"
-    return f"{100.0 * value:.3g}{spread} %".replace("-", "\N{MINUS SIGN}")
+    return f"{100.0 * value + 0.0:.3g}{spread} %".replace("-", "\N{MINUS SIGN}")
 
 
 def _span(values: pd.Series) -> str:

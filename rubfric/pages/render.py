@@ -24,6 +24,7 @@ _EXPLORER = (
     "blocks.js",
     "charts.js",
     "whole.js",
+    "roads.js",
     "temperatures.js",
     "explorer.js",
 )
@@ -32,12 +33,14 @@ _ASSETS = {
     "table": ("page.html", "page.css", "table.html"),
     "claims": ("page.html", "page.css", "claims.html"),
     "rubber": ("page.html", "page.css", "rubber.html"),
+    "road": ("page.html", "page.css", "road.html"),
+    "slide": ("page.html", "page.css", "slide.html"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
 
 
 def assets(page: str) -> tuple[Path, ...]:
-    """Return the templates, styles and scripts of a page: ``table``, ``claims``, ``rubber`` or ``explorer``."""
+    """Return the templates, styles and scripts of a page, ``table``, ``claims``, ``road``, ``explorer`` and so on."""
     return tuple(_FOLDER / name for name in _ASSETS[page])
 
 
@@ -52,6 +55,11 @@ def render(template: str, **values: Any) -> str:
         What the template shows. Text is escaped; ``asset(name)`` in a template gives a file as it is.
     """
     return _environment().get_template(template).render(values)
+
+
+def sentence(words: str) -> str:
+    """Return words as a sentence."""
+    return f"{words[:1].upper()}{words[1:]}."
 
 
 def write_page(page: str, path: str | os.PathLike[str]) -> None:

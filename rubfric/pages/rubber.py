@@ -6,11 +6,13 @@ import base64
 import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from rubfric.dma.bootstrap import Bands
 from rubfric.dma.result import Fit
 from rubfric.figures.dma import draw
 from rubfric.figures.style import png
-from rubfric.pages.render import render
+from rubfric.pages.render import render, sentence
 
 _CAPTIONS = {
     "isotherms": "Moduli as measured, at each temperature.",
@@ -57,11 +59,6 @@ def rubber_page(fit: Fit, bands: Bands, name: str, entry: str) -> str:
     )
 
 
-def sentence(words: str) -> str:
-    """Return words as a sentence."""
-    return f"{words[:1].upper()}{words[1:]}."
-
-
 def results(fit: Fit, bands: Bands) -> Iterator[tuple[str, str, str]]:
     """Yield name, value and 95 % band of what was fitted.
 
@@ -100,9 +97,14 @@ def _band(bands: Bands, name: str, unit: str) -> str:
     return f"{low:.4g} to {high:.4g}{unit}"
 
 
+def _plain(value: float) -> str:
+    """Return a modulus with three digits that count, without an exponent."""
+    return np.format_float_positional(value, 3, fractional=False, trim="-")
+
+
 def _branches(fit: Fit, bands: Bands) -> Iterator[tuple[str, str, str, str]]:
     low, high = bands.of("moduli") if bands.samples else (fit.moduli, fit.moduli)
     total = fit.static + fit.moduli.sum()
     for time, modulus, least, most in zip(fit.times, fit.moduli, low, high, strict=True):
-        band = f"{least:.3g} to {most:.3g}" if bands.samples else ""
+        band = f"{_plain(least)} to {_plain(most)}" if bands.samples else ""
         yield f"{time:.4g}", f"{modulus:.4g}", band, f"{modulus / total:.3g}"

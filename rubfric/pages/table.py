@@ -48,5 +48,5 @@ def _shown(cell: Any) -> str:
         return str(cell)
     if math.isnan(cell):
         return ""
-    plain = cell == 0.0 or 1e-4 <= abs(cell) < 1e7
+    plain = cell == 0.0 or 1e-6 <= abs(cell) < 1e7
     return np.format_float_positional(cell, _DIGITS, fractional=False, trim="-") if plain else f"{cell:.{_DIGITS}g}"

@@ -209,7 +209,7 @@ def _reserve(path: Path, size: int) -> None:
             stream.write(bytes(size))
 
 
-def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
+def read(path: str | os.PathLike[str], digest: str | None = None, refusals: bool = False) -> xr.Dataset:
     """Read the result of a scene, completely into memory.
 
     Parameters
@@ -217,6 +217,8 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
     path : path-like
     digest : str, optional
         ``Scene.digest`` that the result must have.
+    refusals : bool
+        Whether to return what says why a scene was refused, too; it has the attribute ``refusal``.
 
     Raises
     ------
@@ -228,7 +230,7 @@ def read(path: str | os.PathLike[str], digest: str | None = None) -> xr.Dataset:
         raise BrokenResult(f"{os.fspath(path)} is no result of rubfric: it lacks the attribute scene_digest")
     if digest not in (None, result.attrs["scene_digest"]):
         raise BrokenResult(f"{os.fspath(path)} {OTHER_SCENE}; {AGAIN}")
-    if REFUSAL in result.attrs:
+    if REFUSAL in result.attrs and not refusals:
         raise BrokenResult(f"{os.fspath(path)} holds no friction, since the scene was refused: {result.attrs[REFUSAL]}")
     return result
 

@@ -1,4 +1,4 @@
-"""Friction of a road whose phases are not known: the mean over roads with random ones."""
+"""Friction of a road that is known by several: the mean over random phases, or over windows of a measured profile."""
 
 from __future__ import annotations
 
@@ -11,18 +11,20 @@ import xarray as xr
 from rubfric.checksums import fingerprint
 from rubfric.results.campaign import COLLECTED
 from rubfric.results.scalars import attributes
-from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, refusals
+from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, WINDOWS, refusals
 
 _FRICTION = "friction_coefficient"
 
 
-def over_draws(collected: Sequence[xr.Dataset]) -> xr.Dataset:
+def over_draws(collected: Sequence[xr.Dataset], windows: bool = False) -> xr.Dataset:
     """Return the means of all scalars over random roads, with the error that so few roads leave.
 
     Parameters
     ----------
     collected : sequence of xarray.Dataset
         Of each road, as from ``rubfric.results.campaign.collect``, over the same axes.
+    windows : bool
+        Whether roads are windows of a measured profile, not roads with random phases.
 
     Returns
     -------
@@ -36,11 +38,12 @@ def over_draws(collected: Sequence[xr.Dataset]) -> xr.Dataset:
     friction = roads[_FRICTION]
     number = friction.count("draw")
     found = roads.mean("draw", keep_attrs=True)
+    over, kinds = ("windows", WINDOWS) if windows else ("random phases", "roads of random phases")
     error = friction.std("draw", ddof=1) / np.sqrt(number)
     found[ROAD_ERROR] = error.where(number > 1).assign_attrs(
-        attributes("1", "standard error of the mean friction coefficient over random phases of the road, absolute")
+        attributes("1", f"standard error of the mean friction coefficient over {over} of the road, absolute")
     )
-    found[DRAWS] = number.assign_attrs(attributes("1", "roads of random phases that were solved"))
+    found[DRAWS] = number.assign_attrs(attributes("1", f"{kinds} that were solved"))
     reasons = {point: reason for one in reversed(collected) for point, reason in refusals(one).items()}
     found.attrs = {name: value for name, value in collected[0].attrs.items() if name != REFUSALS}
     found.attrs[COLLECTED] = fingerprint(one.attrs.get(COLLECTED, "") for one in collected)

@@ -10,6 +10,8 @@ AXES = ("velocity_mm_per_s", "pressure_MPa")
 TOTAL = ("friction_total", "friction_total_error")
 # What the data of a measured rubber leave open of it.
 RUBBER_PART = "friction_rubber_error"
+# With the number of a road with random phases, or a window: the direct friction on it, for comparisons.
+ONE_ROAD = "friction_direct_"
 # Columns of that table that are text.
 WORDS = ("way", "note")
 

@@ -22,6 +22,8 @@ REFUSAL, NOT_NEEDED = "refusal", "not solved at once; instead the total is by wa
 REFUSALS = "refusals"
 # Of a mean over roads with random phases: how many were solved, and the standard error of the mean friction over them.
 DRAWS, ROAD_ERROR = "draws", "friction_road_error"
+# What they are in words where they are no roads with random phases.
+WINDOWS = "windows of the measured road"
 # What the data of a measured rubber leave open of friction, and how much of that comes from frequencies not measured.
 RUBBER_ERROR, BEYOND = "friction_coefficient_rubber_error", "friction_beyond_window"
 # Share of friction beyond the measured frequencies that is worth a word.

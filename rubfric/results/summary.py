@@ -12,7 +12,9 @@ import xarray as xr
 from rubfric.results.selection import BEYOND, RUBBER_ERROR
 
 _WIDTH = 34
-_COVERED = "mesh, solver, kinematics; not other phases of the waves, the rubber's data or its finite-strain law"
+_COVERED = "mesh, solver, kinematics; not other {}, the rubber's data or its finite-strain law"
+# So many waves whose wavenumbers are all multiples of one are a profile, not scales.
+_PROFILE = 8
 
 
 def summary(result: xr.Dataset) -> str:
@@ -26,7 +28,7 @@ def summary(result: xr.Dataset) -> str:
         f"height/width {attributes['aspect']:g}, plane {attributes['plane']}, {attributes['kinematics_used']} strain",
         "",
         _line("friction coefficient", f"{friction:.5g} +- {float(result['friction_coefficient_error']):.1g}"),
-        *([_line("  the error covers", _COVERED)] if "phase" in attributes else []),
+        *([_line("  the error covers", _COVERED.format(_others(attributes)))] if "phase" in attributes else []),
         *_rubber_error(result),
         _line("  from viscous dissipation", f"{float(result['friction_coefficient_dissipation']):.5g}"),
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
@@ -58,9 +60,22 @@ def _rubber_error(result: xr.Dataset) -> list[str]:
 
 def _road(attributes: Mapping[str, Any]) -> str:
     """Return the road of a result, in words."""
+    if "phase" in attributes and _is_profile(attributes):
+        longest, shortest = 2.0 * np.pi / np.asarray(attributes["wavenumber"])[[0, -1]]
+        return f"a profile of {longest:.4g} mm, waves of {shortest:.4g} mm and longer"
     if "phase" in attributes:
         return f"all {np.size(attributes['phase'])} scales at once"
     return f"scale {attributes['scale']}: {attributes['amplitude']:g} mm sin({attributes['wavenumber']:g}/mm x)"
+
+
+def _is_profile(attributes: Mapping[str, Any]) -> bool:
+    """Return whether a road of many waves is the Fourier series of a profile."""
+    numbers = np.atleast_1d(attributes["wavenumber"])
+    return numbers.size >= _PROFILE and np.allclose(numbers, numbers[0] * np.arange(1, numbers.size + 1), rtol=1e-6)
+
+
+def _others(attributes: Mapping[str, Any]) -> str:
+    return "stretches of the road" if _is_profile(attributes) else "phases of the waves"
 
 
 def _mesh(result: xr.Dataset) -> str:

@@ -13,14 +13,15 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, check_variables, refusals
+from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, WINDOWS, check_variables, refusals
 from rubfric.results.tables import by_temperature
 from rubfric.results.temperature import at_temperature
 from rubfric.results.whole_road import WholeRoad
 
 # What the note says where the whole road would take minutes in finite strain.
-_DEAR = "much of the road is in contact, where all scales at once take minutes: multiscale: direct solves them"
-# What the note says of a direct total without random phases.
+_DEAR = "many fine waves are in contact, and all scales at once would take minutes; multiscale: direct solves them"
+# What the note says of a direct total over several roads, and of one without random phases.
+DRAWN = "roads with random phases"
 ONE_ROAD = "one road with these phases"
 # The ways that are models of the coupling; the direct total is what they are judged by.
 MODELS = tuple(way for way in WAYS if way != "direct")
@@ -104,7 +105,7 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
         found = _totals(road, velocity, pressure, single)
         if whole is not None:
             found["direct"] = _direct(whole.sel(place))
-        way, refused, note = _chosen(road, found, reasons.get((velocity, pressure), ""))
+        way, refused, note = _chosen(road, found, reasons.get((velocity, pressure), ""), velocity, pressure)
         counts, one = found[way], at.sel(place)
         rows.append(
             dict(zip(AXES, (velocity, pressure), strict=True))
@@ -150,7 +151,9 @@ def _direct(whole: xr.Dataset) -> _Total:
     return total._replace(road=float(at[ROAD_ERROR]), draws=int(at[DRAWS])) if DRAWS in at else total
 
 
-def _chosen(road: WholeRoad, found: Mapping[str, _Total], reason: str) -> tuple[str, int, str]:
+def _chosen(
+    road: WholeRoad, found: Mapping[str, _Total], reason: str, velocity: float, pressure: float
+) -> tuple[str, int, str]:
     """Return the way that counts at one point, how many scenes of the whole road were refused there, and what to know.
 
     Parameters
@@ -160,20 +163,24 @@ def _chosen(road: WholeRoad, found: Mapping[str, _Total], reason: str) -> tuple[
         By every way.
     reason : str
         Why the whole road, or a draw of it, was refused or not needed; empty where it was not.
+    velocity, pressure : float
+        mm/s and MPa.
     """
     direct = found["direct"]
     if road.way not in DIRECT:
         return road.way, 0, ""
     if reason.startswith(NOT_NEEDED):
         way = reason.removeprefix(NOT_NEEDED)
-        return way, 0, _DEAR if way == "corrected" else "the cheapest way that is accurate enough"
+        dear = road.kinematics != "small" and way == "corrected" and road.accurate_enough(velocity, pressure) != way
+        return way, 0, _DEAR if dear else "the cheapest way that is accurate enough"
     if np.isnan(direct.friction):
-        missing = len(road.roads) if reason else 0
+        missing = road.count if reason else 0
         return (
             "corrected",
             missing,
             f"the corrected sum stands in for the whole road, which was refused: {reason or 'it was not run'}",
         )
-    refused = len(road.roads) - direct.draws if direct.draws else 0
-    about = f"mean of {direct.draws} roads with random phases" if direct.draws else ONE_ROAD
+    refused = road.count - direct.draws if direct.draws else 0
+    alone = f"the first of the {WINDOWS}" if road.windows else ONE_ROAD
+    about = f"mean of {direct.draws} {WINDOWS if road.windows else DRAWN}" if direct.draws else alone
     return "direct", refused, about + (f"; {refused} more refused: {reason}" if refused else "")

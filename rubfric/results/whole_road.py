@@ -37,7 +37,9 @@ class WholeRoad:
     height : float
         Of the block on the whole road, mm.
     roads : tuple of WaveRoad
-        The road, or those with random phases.
+        The road, or those with random phases; of a measured profile its sines.
+    windows : int
+        How many windows of a measured profile are slid over in their place; 0 for none.
     """
 
     way: str
@@ -48,6 +50,12 @@ class WholeRoad:
     aspect: float
     height: float
     roads: tuple[WaveRoad, ...]
+    windows: int = 0
+
+    @property
+    def count(self) -> int:
+        """How many roads are simulated, if any."""
+        return self.windows or len(self.roads)
 
     @classmethod
     def from_parameters(cls, parameters: Mapping[str, Any]) -> WholeRoad:
@@ -68,6 +76,24 @@ class WholeRoad:
         about = (velocity, pressure, self.height, self.plane, self.kinematics)
         return [estimate(self.material, road, *about) for road in self.roads]
 
+    def accurate_enough(self, velocity: float, pressure: float) -> str:
+        """Return the cheapest way whose total is accurate enough on every road, or "direct" where none is.
+
+        Parameters
+        ----------
+        velocity : float
+            mm/s.
+        pressure : float
+            Nominal, MPa.
+
+        Raises
+        ------
+        NotConverged
+            As ``solve_contact`` does.
+        """
+        ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+        return ways.pop() if len(ways) == 1 else "direct"
+
     def cheapest(self, velocity: float, pressure: float) -> str:
         """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
 
@@ -82,10 +108,9 @@ class WholeRoad:
             Nominal, MPa.
         """
         try:
-            ways = {one.cheapest(self.accuracy) for one in self.couplings(velocity, pressure)}
+            way = self.accurate_enough(velocity, pressure)
         except NotConverged:
             return "direct"
-        way = ways.pop() if len(ways) == 1 else "direct"
         return "corrected" if way == "direct" and self._dear(velocity, pressure) else way
 
     def _dear(self, velocity: float, pressure: float) -> bool:

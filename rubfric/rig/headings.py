@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Real
+from rubfric.columns.textfile import TextTable
+from rubfric.columns.units import check_factor, factor, heading_words, is_mass, split_heading
 from rubfric.errors import InvalidInput
-from rubfric.rig.names import PULLS, USUAL, quantity_of
-from rubfric.rig.textfile import TextTable
-from rubfric.rig.units import EXAMPLES, QUANTITIES, check_factor, factor, heading_words, is_mass, split_heading
+from rubfric.rig.names import EXAMPLES, PULLS, QUANTITIES, USUAL, quantity_of
 
 _ORDINAL = re.compile(r"(\d+)(?:st|nd|rd|th)(?:\s+(.*))?")
 # Part of a column's range within which two columns are equal.
@@ -60,7 +60,7 @@ def recognise(
     table: TextTable,
     named: Mapping[str, str | int],
     given: Mapping[str, str],
-    quantities: Sequence[str] = QUANTITIES,
+    quantities: Sequence[str] = tuple(QUANTITIES),
 ) -> dict[str, Column]:
     """Return the columns of time, normal force, traction and displacement, or of some of them.
 
@@ -209,7 +209,7 @@ class _Search:
             return 1.0, ()
         below, inside = self.table.units[place], split_heading(heading)[1]
         where = f"{heading!r}" if heading else f"number {place + 1}"
-        both = [factor(quantity, one) for one in (below, inside) if one]
+        both = [factor(QUANTITIES[quantity], one) for one in (below, inside) if one]
         if not given and len(both) == 2 and None not in both and both[0] != both[1]:
             raise InvalidInput(
                 f"{self.path} has the units {inside!r} and {below!r} for the column {where}: write the right one "
@@ -223,7 +223,8 @@ class _Search:
                 f"'{heading or quantity} ({example})', or in the YAML file of --columns, as in units: "
                 f"{{{quantity}: {example}}}"
             )
-        scale = check_factor(f"the unit of the column {where} of {self.path}, which holds {quantity},", quantity, unit)
+        what = f"the unit of the column {where} of {self.path}, which holds {quantity},"
+        scale = check_factor(what, QUANTITIES[quantity], unit)
         weighed = quantity in ("normal", "traction") and is_mass(unit)
         return scale, (f"{quantity} in {unit} is read as the weight of that mass, {scale:.6g} N",) if weighed else ()
 

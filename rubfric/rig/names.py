@@ -1,11 +1,13 @@
-"""Usual headings of what a rig records, in small letters."""
+"""What a rig records: the kinds and usual units of its quantities, and their usual headings in small letters."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rubfric.rig.units import heading_words
+from rubfric.columns.units import heading_words
 
+QUANTITIES = {"time": "time", "normal": "force", "traction": "force", "displacement": "length"}
+EXAMPLES = {"time": "s", "normal": "N", "traction": "N", "displacement": "mm"}
 USUAL = {
     "time": {"time", "t", "zeit", "elapsed", "elapsed time", "relative time", "timestamp", "test time", "temps"}
     | {"testzeit", "prüfzeit", "tiempo", "tempo", "时间", "時間", "시간", "время"},

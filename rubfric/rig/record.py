@@ -9,12 +9,11 @@ import numpy as np
 from scipy.ndimage import median_filter
 
 from rubfric.arrays import Flags, Real
+from rubfric.columns.textfile import read_text, readable
 from rubfric.errors import InvalidInput
 from rubfric.rig.headings import recognise, unused_loads
-from rubfric.rig.names import expected
+from rubfric.rig.names import QUANTITIES, expected
 from rubfric.rig.settings import Settings
-from rubfric.rig.textfile import read_text, readable
-from rubfric.rig.units import QUANTITIES
 
 MEASURED, SIMULATED = "measured", "simulated"
 # What the virtual rig writes above the headings of its files.
@@ -125,7 +124,7 @@ def ordered(name: str, source: str, values: Real, notes: tuple[str, ...] = ()) -
     whole = np.isfinite(values[0]) & np.isfinite(values[3]) & ~np.isnan(values[1:3]).any(axis=0)
     lost = int(np.count_nonzero(~whole))
     if lost > _MOST_MISSING * whole.size:
-        worst = QUANTITIES[int(np.argmax(np.isnan(values).sum(axis=1)))]
+        worst = list(QUANTITIES)[int(np.argmax(np.isnan(values).sum(axis=1)))]
         raise InvalidInput(
             f"{name} lacks a value in {lost} of its {whole.size} rows, more than {100 * _MOST_MISSING:g} %, most often "
             f"of {worst}: export all columns at the same times"

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from rubfric import checks
+from rubfric.columns.format import AS_FOUND, FORMAT, Format
+from rubfric.columns.units import check_factor
 from rubfric.config.overlay import read_yaml
 from rubfric.config.place import Place
 from rubfric.config.plausibility import check_area
 from rubfric.config.rig import VirtualRig
 from rubfric.errors import InvalidInput
-from rubfric.rig.format import AS_FOUND, FORMAT, Format
-from rubfric.rig.units import QUANTITIES, check_factor
+from rubfric.rig.names import QUANTITIES
 from rubfric.rules import Choice, Integer, Number, rules
 
 _FORCES = ("normal", "traction")
@@ -197,7 +198,7 @@ def _columns(key: str, value: Any) -> dict[str, str | int]:
 def _units(key: str, value: Any) -> dict[str, str]:
     checks.known_keys(key, value, QUANTITIES)
     for name, unit in value.items():
-        check_factor(f"{key}.{name}", name, unit)
+        check_factor(f"{key}.{name}", QUANTITIES[name], unit)
     return dict(value)
 
 

@@ -7,7 +7,8 @@ import os
 from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
-from rubfric.results.selection import RUBBER_ERROR
+from rubfric.results.comparison import headlines
+from rubfric.results.selection import RUBBER_ERROR, WINDOWS
 
 # How a total was obtained, in words.
 WAYS = {
@@ -21,16 +22,17 @@ _MOST_NAMED = 5
 
 
 def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
-    """Return sentences on the largest error of single scales and of the whole road, on warnings and on refusals.
+    """Return sentences on the largest error of scales and of the whole road, on warnings, refusals, and who grips more.
 
     Parameters
     ----------
     tables : iterable of path-like
         Tables of single scales, as from ``results.tables.scale_table``, and of totals, as from
-        ``results.totals.total_table``; missing ones are skipped.
+        ``results.totals.total_table``, and rankings of ``results.comparison``; missing ones are skipped.
     """
     found = list(tables)
-    return [*_of_scales(found), *(line for path in found for line in _of_totals(path))]
+    totals = (line for path in found for line in _of_totals(path))
+    return [*_of_scales(found), *totals, *(line for path in found for line in _ranked(path))]
 
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
@@ -49,8 +51,8 @@ def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
         return []
     carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
     return [
-        *([f"largest estimated error of friction {100.0 * worst:.2g} %, {where}"] if where else []),
-        *([f"beside that at most {100.0 * data:.2g} % from the data of the rubber"] if data >= 0.0 else []),
+        *([f"largest estimated error of friction {_percent(worst)}, {where}"] if where else []),
+        *([f"beside that at most {_percent(data)} from the data of the rubber"] if data >= 0.0 else []),
         carry if warned else f"none of {scenes} scenes carries a warning",
     ]
 
@@ -62,9 +64,7 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
     if known:
         worst = max(known, key=lambda row: float(row["friction_total_error"]) / abs(float(row["friction_total"])))
         share = float(worst["friction_total_error"]) / abs(float(worst["friction_total"]))
-        lines.append(
-            f"largest error of the whole road's friction {100.0 * share:.2g} %, {WAYS[worst['way']]}, {_point(worst)}"
-        )
+        lines.append(f"largest error of the whole road's friction {_percent(share)}, {_way(worst)}, {_point(worst)}")
     refused = [row for row in rows if int(row["refused"])]
     if refused:
         named = "; ".join(_point(row).removeprefix("at ") for row in refused[:_MOST_NAMED])
@@ -74,6 +74,29 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
             f"{os.fspath(path)}, column note"
         )
     return lines
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.{2 if share < 0.995 else 3}g} %"
+
+
+def _way(row: dict[str, str]) -> str:
+    """Return in words how a total was obtained."""
+    profile = row["way"] == "direct" and WINDOWS in row.get("note", "")
+    return "the measured profile itself" if profile else WAYS[row["way"]]
+
+
+def _ranked(path: str | os.PathLike[str]) -> list[str]:
+    """Return how often which of two rubbers, or roads, grips more; of many comparisons the first."""
+    lines = headlines(_rows(path, "compared", "verdict"))
+    more = len(lines) - _MOST_NAMED
+    return [*lines[:_MOST_NAMED], *([f"and {more} more comparisons in {os.fspath(path)}"] if more > 0 else [])]
+
+
+def told_apart(path: str | os.PathLike[str]) -> str:
+    """Return the first comparison of a ranking in words, and how many more there are; empty for a missing table."""
+    lines = headlines(_rows(path, "compared", "verdict"))
+    return "; ".join([*lines[:1], *([f"{len(lines) - 1} more"] if len(lines) > 1 else [])])
 
 
 def _point(row: dict[str, str]) -> str:
@@ -110,7 +133,7 @@ def highest(path: str | os.PathLike[str]) -> str:
     friction, error = float(top["friction_total"]), float(top["friction_total_error"] or "nan")
     return (
         f"at most {friction:.3g} ± {error:.1g}, at {float(top['velocity_mm_per_s']):g} mm/s "
-        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({WAYS[top['way']]})"
+        f"and {float(top['pressure_MPa']):g} MPa{_warm(top)} ({_way(top)})"
     )
 
 

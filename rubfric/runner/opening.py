@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.config.campaign import Campaign
+from rubfric.config.pairs import which
 from rubfric.config.references import spread
 from rubfric.config.temperature import rubber_at
 from rubfric.rubber.material import Material
@@ -18,8 +19,8 @@ from rubfric.scene.scene import Scene
 # finite strain at 1 %, of its four marches, and of 42 scenes of the whole road, reduced to 1 %. Small strain and other
 # accuracies by the factors measured there.
 _SCENE, _WHOLE, _MARCH, _TABLE, _FIGURE, _OTHER = 0.56, 10.0, 17.0, 0.5, 0.9, 1.0
-# The fit of a rubber with 200 bootstrap samples, and its page.
-_FIT = 5.0
+# The fit of a rubber with 200 bootstrap samples, and the reading of a road, each with its page.
+_FIT, _ROAD = 5.0, 3.0
 _SMALL, _STEPS = 0.05, 64 * 64 * 12
 # Temperatures of which the moduli are named.
 _MOST_TEMPERATURES = 5
@@ -50,6 +51,7 @@ class Costs:
                 "whole_scene": _WHOLE * _weight(whole) if whole else 0.0,
                 "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
                 "rubber_fit": _FIT,
+                "road_read": _ROAD,
                 "reading": _SCENE * reading * _factor(draft) * 0.3,
             }
         )
@@ -96,10 +98,29 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         *([f"a campaign of your own, {grid}{without}"] if own else []),
         *_scales(campaign),
         *_fit(campaign),
+        *_survey(campaign),
         *_moduli(campaign),
         _scenes(campaign),
+        *_others(campaign),
     ]
     return [*lines, *(f"UNLIKELY: {sentence}" for sentence in campaign.unlikely())]
+
+
+def _others(campaign: Campaign) -> list[str]:
+    """Say which rubbers and roads are compared, what is made of the first alone, and what is run for the others."""
+    if not campaign.others:
+        return []
+    scenes = sum(len(one.scenes()) for one in campaign.others)
+    whole = sum(len(one.whole_scenes()) for one in campaign.others)
+    fitted = {one.material.name: one for one in campaign.others if one.material.name != campaign.material.name}
+    surveyed = {one.road_name: one for one in campaign.others if one.road_name != campaign.road_name}
+    parts = [f"{scenes} scenes", *([f"{whole} of the whole road"] if whole else [])]
+    return [
+        f"{which(campaign)}: all tables and figures but the comparison are of it; name another first to draw its own",
+        *(line for one in fitted.values() for line in _fit(one)),
+        *(line for one in surveyed.values() for line in _survey(one)),
+        f"{_many(len(campaign.others), 'other pair')}: {', '.join(parts)}",
+    ]
 
 
 def _scales(campaign: Campaign) -> list[str]:
@@ -108,6 +129,16 @@ def _scales(campaign: Campaign) -> list[str]:
         f"steepest slope {scale.steepest_slope:.3g}"
         for number, scale in enumerate(campaign.road, 1)
     ]
+
+
+def _survey(campaign: Campaign) -> list[str]:
+    """Say what a measured road was made into."""
+    survey = campaign.survey
+    if survey is None:
+        return []
+    windows = len(campaign.whole_roads) if survey.windows else 0
+    slid = f", and itself over {windows} window{'s' if windows > 1 else ''}" if windows else ""
+    return [survey.words + slid, *(f"the profile of {campaign.road_name}: {one}" for one in survey.warnings)]
 
 
 def _fit(campaign: Campaign) -> list[str]:

@@ -17,11 +17,16 @@ from visit import MISSING, missing_program, requested_addresses, resize, start
 import rubfric
 from rubfric.pages.explorer.data import payload, together
 from rubfric.pages.explorer.page import page
+from rubfric.pages.explorer.roads import NUMBER
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
+from rubfric.results.draws import over_draws
 from rubfric.results.provenance import refusal
 from rubfric.results.temperature import at_temperature
+from rubfric.results.totals import total_table
+from rubfric.results.whole_road import WholeRoad
+from rubfric.scene.scene import Scene
 
 CONFIG = Path(rubfric.__file__).resolve().parents[1] / "config" / "config.yaml"
 SCALES, SPEEDS, PRESSURES, ASPECT = (1, 2), (1.0, 100.0, 1000.0, 10000.0), (0.5, 5.0), 0.75
@@ -143,3 +148,40 @@ def warm(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = folder / "explorer.html"
     write_page(page(together(payloads, 20.0)), path)
     return path
+
+
+@pytest.fixture(scope="session")
+def measured(tmp_path_factory: pytest.TempPathFactory) -> Explored:
+    """Return the page of two windows of a measured road, the second of which is refused at 100 mm/s."""
+    street = {
+        "profile": str(CONFIG.parents[1] / "examples/own_road/street.csv"),
+        "scales": 2,
+        "cutoff": 8,
+        "windows": 2,
+    }
+    grid = {"velocities": [1.0, 100.0], "pressures": [0.3], "aspect": ASPECT}
+    chosen = {"multiscale": "direct", "kinematics": "small", "numerics": {"preset": "draft"}}
+    campaign = rubfric.load({"road": "street", "roads": {"street": street}, "grid": grid} | chosen)
+    folder, scenes = tmp_path_factory.mktemp("measured"), {}
+
+    def collected(named: dict[str, Scene], road: int) -> xr.Dataset:
+        paths = {}
+        for scene in named.values():
+            refused = road == 2 and scene.velocity == 100.0
+            result = refusal(scene, "it folds") if refused else rubfric.simulate(scene)
+            path = folder / f"{road}{scene.name}.nc"
+            rubfric.write(result, path)
+            paths[path] = scene.digest
+            scenes[road, scene.velocity, scene.name] = result.assign_attrs({NUMBER: road} if road else {})
+        return collection.collect(paths, paths.values())
+
+    scales = collected({name: one for name, one in campaign.scenes().items() if one.aspect == ASPECT}, 0)
+    whole = campaign.whole_scenes()
+    of_road = over_draws(
+        [collected({n: s for n, s in whole.items() if n.startswith(f"window{road}/")}, road) for road in (1, 2)], True
+    )
+    totals = total_table(scales, of_road, WholeRoad.from_parameters(campaign.whole_parameters()))
+    path = folder / "explorer.html"
+    write_page(page(payload(scales, totals, scenes.values(), ASPECT, "street", of_road)), path)
+    by_road = {(road, speed, 0.3): one for (road, speed, _), one in scenes.items() if road}
+    return Explored(path, of_road, totals, by_road)

@@ -374,3 +374,50 @@ def test_temperature_is_chosen_and_part_of_the_address(browser: WebDriver, warm:
     settled(browser)
     assert "Rubber at 20" in words(browser, "about")
     assert console_errors(browser) == []
+
+
+def test_every_window_of_a_measured_road_is_chosen_beside_the_mean(browser: WebDriver, measured: Any) -> None:
+    open_explorer(browser, measured.path, "scale=whole&view=curves&pressure=0.3&speed=1", fresh=True)
+    assert settled(browser).endswith("&speed=1&road=1")
+    row = total_at(measured, 1.0, 0.3)
+    heads = []
+    for road in (1, 2):
+        choose(browser, "road", str(road - 1))
+        scene = measured.scenes[road, 1.0, 0.3]
+        assert_gives(words(browser, "headline"), row["friction_total"], row["friction_total_error"])
+        alone = words(browser, "covers").partition(f"Window {road} alone:")[2]
+        assert_gives(alone, float(scene.friction_coefficient), float(scene.friction_coefficient_error))
+        profile = next(trace for trace in traces(browser, "picture") if trace.get("yaxis") == "y2")
+        assert max(profile["y"]) == pytest.approx(float(scene.contact_pressure.max()), rel=1e-6)
+        assert f"{int(scene.columns)} × {int(scene.rows)} cells" in words(browser, "numbers")
+        heads.append(words(browser, "headline"))
+    assert heads[0] == heads[1]
+    said = words(browser, "covers")
+    assert said.startswith("The profile itself, mean over 2 windows of the measured road. ± covers mesh and solver (")
+    assert "so few windows" in said
+    assert "Circles: each window" in words(browser, "marks")
+    friction = float(measured.scenes[1, 1.0, 0.3].friction_coefficient)
+    assert "Window 1" in hover_words(browser, "chart", place(browser, "chart", 1.0, friction))
+    click_at(browser, "chart", place(browser, "chart", 1.0, friction))
+    assert settled(browser).endswith("&road=1")
+    show(browser, "scale=whole&speed=100&road=2")
+    assert "Window 2 was refused: It folds." in words(browser, "covers")
+    assert browser.execute_script("return document.getElementById('picture').hidden")
+    show(browser, "scale=total&speed=1")
+    browser.execute_script("document.querySelector('input[name=pressure]:checked').focus()")
+    press(browser, Keys.TAB)
+    assert focused(browser) == "road"
+    press(browser, Keys.ARROW_LEFT)
+    assert settled(browser).endswith("&road=1")
+    show(browser, "scale=1")
+    assert browser.execute_script("return document.getElementById('roads').hidden")
+    assert not console_errors(browser)
+
+
+@pytest.mark.parametrize("width", [390, 800, 1400])
+def test_page_of_windows_fits_its_screen(browser: WebDriver, measured: Any, width: int) -> None:
+    resize(browser, width, 800, touch=width < 500)
+    open_explorer(browser, measured.path, fresh=True)
+    for scale, view in product(("total", "whole"), ("curves", "map")):
+        show(browser, f"scale={scale}&view={view}&road=2")
+        assert browser.execute_script("return document.documentElement.scrollWidth") <= width

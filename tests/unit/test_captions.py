@@ -38,7 +38,10 @@ def configs() -> dict[str, dict[str, Any]]:
     odd["roads"] = {"_": [{"amplitude": 0, "wavenumber": 1}]}
     odd["numerics"] = paper["numerics"] | {"accuracy": 0.05}
     odd["rig"] = {"data": ["run_1.csv", "run_2.csv"]}
-    return {"paper": paper, "minimal": overlay(paper, minimal), "odd": odd}
+    street = {"road": "street", "roads": {"street": {"profile": "street.csv", "windows": 3}}}
+    street |= {"rubber": "mine", "rubbers": {"mine": {"measurements": "dma.csv"}}}
+    drawn = overlay(paper, {"phases": {"draws": 4}})
+    return {"paper": paper, "minimal": overlay(paper, minimal), "odd": odd, "drawn": drawn, "measured": paper | street}
 
 
 CONFIGS = configs()

@@ -165,6 +165,15 @@ def test_overlay_needs_no_more_than_its_changes(tmp_path: Path, capsys: pytest.C
     assert "plane strain" in capsys.readouterr().out
 
 
+def test_first_of_several_is_taken_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "two.yaml").write_text("road: [fine, zhou2019]\nroads: {fine: [{amplitude: 0.01, wavelength: 0.2}]}")
+    options = ["--scale", "1", "--velocity", "100", "--pressure", "1", "--kinematics", "small"]
+    assert cli.main(["simulate", *options, "--config", str(tmp_path / "two.yaml")]) == 0
+    said = capsys.readouterr()
+    assert said.err == "rubfric: of rubber zhou2019 and roads fine, zhou2019, this is zhou2019 on fine, the first\n"
+    assert "zhou2019 on scale 1: 0.01 mm sin(31.4159/mm x)" in said.out
+
+
 def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as caught:
         cli.main(["--version"])

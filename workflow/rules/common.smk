@@ -12,7 +12,8 @@ from rubfric.runner import jobs
 from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
-from rubfric.runner.findings import highest, verdicts
+from rubfric.config.pairs import not_covered
+from rubfric.runner.findings import highest, told_apart, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.leftovers import remove_leftovers
@@ -41,6 +42,10 @@ def in_place(folder):
 RESULTS = in_place(CAMPAIGN.results)
 RUBBER = CAMPAIGN.material.name
 ROAD = CAMPAIGN.road_name
+# The campaign of every rubber on every road, by their names: this one first. Several are compared.
+PAIRS = CAMPAIGN.pairs
+COMPARED = len(PAIRS) > 1
+OF_PAIR = " of {wildcards.rubber} on {wildcards.road}" if COMPARED else ""
 # The temperature of whatever shows one, and the campaign at it; None, and the campaign itself, where it has none.
 TEMPERATURE = CAMPAIGN.figures.temperature
 AT_ONE = CAMPAIGN.at(TEMPERATURE)
@@ -59,7 +64,9 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"(draw\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"((draw|window)\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    rubber=r"[A-Za-z0-9_-]+",
+    road=r"[A-Za-z0-9_-]+",
     scale=r"\d+",
     figure=r"\w+",
 
@@ -81,9 +88,9 @@ def script_copy(name):
     return local(copy_of(SOURCES, workflow.source_path(f"../scripts/{name}")))
 
 
-def scene_file(name):
+def scene_file(name, rubber=RUBBER, road=ROAD):
     """Return where the result of a scene belongs."""
-    return f"{RESULTS}/scenes/{RUBBER}/{ROAD}/{name}.nc"
+    return f"{RESULTS}/scenes/{rubber}/{road}/{name}.nc"
 
 
 def scene_files(wildcards):
@@ -91,9 +98,9 @@ def scene_files(wildcards):
     return [scene_file(name) for name in SCENES]
 
 
-def whole_file(name):
+def whole_file(name, rubber=RUBBER, road=ROAD):
     """Return where the result of a scene of the whole road belongs."""
-    return f"{RESULTS}/whole/{RUBBER}/{ROAD}/{name}.nc"
+    return f"{RESULTS}/whole/{rubber}/{road}/{name}.nc"
 
 
 def whole_files(wildcards):
@@ -134,6 +141,18 @@ def pictures(figure, caption, shows, category=REPORT.figures):
         )
         for kind, form in (("pdf", "print (PDF)"), ("png", "picture (PNG)"))
     }
+
+
+def extremes(values):
+    """Return the least and the largest."""
+    return min(values), max(values)
+
+
+def road_number(name):
+    """Return on which of several roads a scene is, from 1, given its name with its folder; 0 on the only one."""
+    return (
+        [*CAMPAIGN.whole_roads].index(name.split("all_")[0]) + 1 if "/" in name else 0
+    )
 
 
 def whole_fingerprint(digests):
@@ -201,8 +220,12 @@ def made_for_a_config():
             + ["rig_figure", "rig_schematic", "march_figure"],
             [*FIGURES, *MARCH_FIGURE],
         ),
+        "pair_table": [*PAIR_TABLES.values()],
+        "comparison_table": [*COMPARISON.values(), COMPARISON_MARK],
+        "comparison_figure": FIGURES,
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
+        "road_read": ROAD_FILES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -220,15 +243,17 @@ def follow(workflow):
         RESULTS,
         targets=[own[rule.name] for rule in workflow.modifier.rules if not rule.output],
         rules=own,
-        tables=TABLES,
+        tables=[*TABLES, *COMPARISON.values()],
         first=[
             f"{RESULTS}/{path}"
             for path in (
                 *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
+                *(["tables/ranking.html"] if COMPARED else []),
                 "figures/fig6.png",
                 "explorer.html",
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
+                *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
             )
         ],
         dry=lambda: workflow.dryrun,

@@ -3,11 +3,6 @@ EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
 }
 
-# The whole road; of random roads the first.
-EXPLORED_WHOLE = {
-    name: scene for name, scene in WHOLE.items() if name == f"{DRAW}{scene.name}"
-}
-
 
 rule explorer:
     input:
@@ -19,7 +14,7 @@ rule explorer:
         whole=WHOLE_COLLECTION,
         scenes=[
             *(scene_file(name) for name in EXPLORED),
-            *(whole_file(name) for name in EXPLORED_WHOLE),
+            *(whole_file(name) for name in WHOLE),
         ],
     output:
         # The report links to it: browsers show no embedded page of more than 2 MB.
@@ -33,13 +28,12 @@ rule explorer:
             "road": ROAD,
             "collected": [COLLECTED, WHOLE_COLLECTED],
             "digests": [
-                scene.digest
-                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+                scene.digest for scene in [*EXPLORED.values(), *WHOLE.values()]
             ],
             "temperatures": [
-                scene.temperature
-                for scene in [*EXPLORED.values(), *EXPLORED_WHOLE.values()]
+                scene.temperature for scene in [*EXPLORED.values(), *WHOLE.values()]
             ],
+            "roads": [road_number(name) for name in [*EXPLORED, *WHOLE]],
             "shown": TEMPERATURE,
         },
     message:

@@ -30,16 +30,23 @@ if len(CAMPAIGN.temperatures) > 1:
 WHOLE_FIGURES = ["fig11"] if WHOLE else []
 
 
-# Three fast speeds at two light loads, where all scales at once are solved in seconds; of random roads the first.
+# Three fast speeds at two light loads, where all scales at once are solved in seconds; of random roads the first. Windows
+# of a measured road are solved in seconds anywhere: there the slowest and the fastest, at the lightest and the heaviest.
 DRAW = next(iter(CAMPAIGN.whole_roads), "")
 DRAWS = len(CAMPAIGN.whole_roads) if DRAW else 0
+WINDOWS = DRAW.startswith("window")
+DRAWN_KIND = "windows" if WINDOWS else "random roads"
+
+
 SHOWN_WHOLE = {
     name: scene
     for name, scene in WHOLE.items()
     if name == f"{DRAW}{scene.name}"
     and scene.temperature == TEMPERATURE
-    and scene.pressure in sorted(SHOWN.pressures)[:2]
-    and scene.velocity in sorted(SHOWN.velocities)[-3:]
+    and scene.pressure
+    in (extremes(SHOWN.pressures) if WINDOWS else sorted(SHOWN.pressures)[:2])
+    and scene.velocity
+    in (extremes(SHOWN.velocities) if WINDOWS else sorted(SHOWN.velocities)[-3:])
 }
 # Made before Snakemake looks for them: of files that appear while it does it would know nothing.
 DRAWN_BY = {
@@ -56,14 +63,16 @@ FIGURE_WORDS = {
     "fig10": "five ways to the friction of the whole road",
     "fig11": "the block on the whole road",
     "fig12": "friction over speed and temperature",
+    "fig13": "friction of every rubber on every road",
 }
 RIG_FIGURES = ["fig8", "fig9"] if CAMPAIGN.rig else []
+COMPARISON_FIGURES = ["fig13"] if COMPARED else []
 FIGURES = [
     f"{RESULTS}/figures/{figure}.{kind}"
     for figure in sorted(
         [
             *(*CAMPAIGN_FIGURES, *FIELD_FIGURES, *RIG_FIGURES),
-            *(*TOTAL_FIGURES, *WHOLE_FIGURES),
+            *(*TOTAL_FIGURES, *WHOLE_FIGURES, *COMPARISON_FIGURES),
         ]
     )
     for kind in ("pdf", "png")
@@ -188,7 +197,7 @@ rule whole_figure:
             "fig11",
             "../report/whole_figure.rst",
             lambda _: FIGURE_WORDS["fig11"]
-            + (f", first of {DRAWS} random roads" if DRAWS else ""),
+            + (f", first of {DRAWS} {DRAWN_KIND}" if DRAWS else ""),
         ),
     log:
         f"{RESULTS}/logs/figures/fig11.log",
@@ -208,6 +217,7 @@ rule whole_figure:
             digests=params.digests,
             draws=params.draws,
             temperature=params.temperature,
+            windows=WINDOWS,
         )
 
 

@@ -1,8 +1,10 @@
-# The page of a rubber that was fitted to measured moduli, with bands, and the rubber as a config. What scenes need of the
-# fit is in their params: planning has made it, as the Snakefile says.
-MEASURED = config["rubbers"][RUBBER] if CAMPAIGN.fitted else {}
+# The page of each rubber that was fitted to measured moduli, with bands, and the rubber as a config. What scenes need of
+# the fit is in their params: planning has made it, as the Snakefile says.
+MEASURED = {rubber: one.fitted for (rubber, _), one in PAIRS.items() if one.fitted}
 RUBBER_FILES = [
-    f"{RESULTS}/rubbers/{RUBBER}.{kind}" for kind in ("yaml", "html") if MEASURED
+    f"{RESULTS}/rubbers/{rubber}.{kind}"
+    for rubber in MEASURED
+    for kind in ("yaml", "html")
 ]
 
 
@@ -13,27 +15,33 @@ if MEASURED:
             package_files("rubfric.rubber_commands"),
             page_files("rubber"),
             script=script_copy("fit_rubber.py"),
-            measurements=local(CAMPAIGN.fitted.source),
+            measurements=lambda wildcards: local(MEASURED[wildcards.rubber].source),
         output:
-            RUBBER_FILES[0],
+            f"{RESULTS}/rubbers/{{rubber}}.yaml",
             page=report(
-                RUBBER_FILES[1],
+                f"{RESULTS}/rubbers/{{rubber}}.html",
                 caption="../report/rubber.rst",
                 category=REPORT.fields,
-                labels={"data": "the rubber, fitted to its measurements"},
+                labels={
+                    "data": "the rubber"
+                    + (" {rubber}" if COMPARED else "")
+                    + ", fitted to its measurements"
+                },
             ),
         log:
-            f"{RESULTS}/logs/rubbers/{RUBBER}.log",
+            f"{RESULTS}/logs/rubbers/{{rubber}}.log",
+        wildcard_constraints:
+            rubber="|".join(MEASURED),
         localrule: True
         params:
-            rubber=RUBBER,
-            entry={
+            rubber=lambda wildcards: wildcards.rubber,
+            entry=lambda wildcards: {
                 name: value
-                for name, value in MEASURED.items()
+                for name, value in config["rubbers"][wildcards.rubber].items()
                 if name not in ("measurements", "uncertainty")
             },
         message:
-            f"The fit of rubber {RUBBER}: {RUBBER_FILES[1]}"
+            "The fit of rubber {wildcards.rubber}: {output.page}"
         run:
             jobs.run(
                 input.script,

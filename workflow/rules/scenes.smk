@@ -1,5 +1,6 @@
 # One job per scene. All that a scene depends on is in its params and in the package files it lists.
-SCENES = CAMPAIGN.scenes()
+SCENES_OF = {pair: one.scenes() for pair, one in PAIRS.items()}
+SCENES = SCENES_OF[RUBBER, ROAD]
 DIGESTS = [scene.digest for scene in SCENES.values()]
 # What the collection of these scenes is known by.
 COLLECTED = fingerprint(sorted(DIGESTS))
@@ -10,16 +11,18 @@ rule scene:
         package_files("rubfric.simulation"),
         script=script_copy("simulate_scene.py"),
     output:
-        scene_file("{scene}"),
+        scene_file("{scene}", "{rubber}", "{road}"),
     log:
-        f"{RESULTS}/logs/scenes/{RUBBER}/{ROAD}/{{scene}}.log",
+        f"{RESULTS}/logs/scenes/{{rubber}}/{{road}}/{{scene}}.log",
     priority: 5
     localrule: workflow.remote_exec
     params:
-        parameters=lambda wildcards: SCENES[wildcards.scene].parameters(),
+        parameters=lambda wildcards: SCENES_OF[wildcards.rubber, wildcards.road][
+            wildcards.scene
+        ].parameters(),
         version=rubfric.__version__,
     message:
-        "{wildcards.scene}"
+        "{wildcards.scene}" + OF_PAIR
     run:
         jobs.run(input.script, log[0], output=output[0], parameters=params.parameters)
 
@@ -59,3 +62,4 @@ rule campaign:
 rule scenes:
     input:
         scene_files,
+        [scene_file(name, *pair) for pair in PAIRS for name in SCENES_OF[pair]],

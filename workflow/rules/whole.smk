@@ -1,13 +1,24 @@
 # The whole road, all scales at once: one job per scene, as for a scale, except that a scene that is refused leaves a file
 # that says why, and the campaign goes on. With random phases every draw has a folder of its own.
-WHOLE = CAMPAIGN.whole_scenes()
-# What decides whether a scene of the whole road is needed.
-CHOOSING = ["rubfric.results.whole_road"] if CAMPAIGN.multiscale.way == "auto" else []
-# The parameters of the whole road at each temperature.
-ROADS = {
-    temperature: campaign.whole_parameters()
-    for temperature, campaign in CAMPAIGN.by_temperature.items()
+WHOLE_OF = {pair: one.whole_scenes() for pair, one in PAIRS.items()}
+WHOLE = WHOLE_OF[RUBBER, ROAD]
+# Where a scene of the whole road may not be needed, what decides; and the files of the package behind it.
+CHOOSING = {
+    pair: ["rubfric.results.whole_road"] if one.multiscale.way == "auto" else []
+    for pair, one in PAIRS.items()
 }
+WHOLE_CODE = {
+    pair: package_files("rubfric.simulation", *CHOOSING[pair]) for pair in PAIRS
+}
+# The parameters of the whole road at each temperature.
+ROADS_OF = {
+    pair: {
+        temperature: campaign.whole_parameters()
+        for temperature, campaign in one.by_temperature.items()
+    }
+    for pair, one in PAIRS.items()
+}
+ROADS = ROADS_OF[RUBBER, ROAD]
 # Other scenes, another name, as for the collection of the scales.
 WHOLE_MARK = (
     f"{RESULTS}/collected_whole/{fingerprint(scene.digest for scene in WHOLE.values())}"
@@ -15,35 +26,47 @@ WHOLE_MARK = (
 # The collection of them, and its mark; none where the total does without.
 WHOLE_COLLECTION = [f"{RESULTS}/whole.nc", WHOLE_MARK] if WHOLE else []
 # Paths of the results of every road, and their digests; what the collection of these scenes is known by.
-WHOLE_DIGESTS = {
-    draw: {
-        whole_file(name): scene.digest
-        for name, scene in WHOLE.items()
-        if name.startswith(f"{draw}all_")
+WHOLE_DIGESTS_OF = {
+    pair: {
+        draw: {
+            whole_file(name, *pair): scene.digest
+            for name, scene in WHOLE_OF[pair].items()
+            if name.startswith(f"{draw}all_")
+        }
+        for draw in one.whole_roads
     }
-    for draw in CAMPAIGN.whole_roads
+    for pair, one in PAIRS.items()
 }
+WHOLE_DIGESTS = WHOLE_DIGESTS_OF[RUBBER, ROAD]
 WHOLE_COLLECTED = whole_fingerprint(WHOLE_DIGESTS)
+
+
+def choosing(rubber, road, whole):
+    """Return the parameters of the whole road that decide whether a scene of it is needed; none where all are."""
+    pair = rubber, road
+    return ROADS_OF[pair][WHOLE_OF[pair][whole].temperature] if CHOOSING[pair] else {}
 
 
 rule whole_scene:
     input:
-        package_files("rubfric.simulation", *CHOOSING),
+        lambda wildcards: WHOLE_CODE[wildcards.rubber, wildcards.road],
         script=script_copy("simulate_whole.py"),
     output:
-        whole_file("{whole}"),
+        whole_file("{whole}", "{rubber}", "{road}"),
     log:
-        f"{RESULTS}/logs/whole/{RUBBER}/{ROAD}/{{whole}}.log",
+        f"{RESULTS}/logs/whole/{{rubber}}/{{road}}/{{whole}}.log",
     priority: 5
     localrule: workflow.remote_exec
     params:
-        parameters=lambda wildcards: WHOLE[wildcards.whole].parameters(),
-        road=lambda wildcards: (
-            ROADS[WHOLE[wildcards.whole].temperature] if CHOOSING else {}
+        parameters=lambda wildcards: WHOLE_OF[wildcards.rubber, wildcards.road][
+            wildcards.whole
+        ].parameters(),
+        road=lambda wildcards: choosing(
+            wildcards.rubber, wildcards.road, wildcards.whole
         ),
         version=rubfric.__version__,
     message:
-        "{wildcards.whole}"
+        "{wildcards.whole}" + OF_PAIR
     run:
         jobs.run(
             input.script,
@@ -87,4 +110,5 @@ rule whole_collection:
 rule whole:
     input:
         whole_files,
+        [whole_file(name, *pair) for pair in PAIRS for name in WHOLE_OF[pair]],
         WHOLE_COLLECTION,

@@ -1,10 +1,14 @@
 """Build the page on which the campaign is explored in a browser."""
 
+from collections.abc import Iterator
+
 import netCDF4
+import xarray as xr
 
 from rubfric.checksums import check_seal
 from rubfric.pages.explorer.data import payload, together
 from rubfric.pages.explorer.page import page
+from rubfric.pages.explorer.roads import NUMBER
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
@@ -25,6 +29,7 @@ def main(
     aspect: float,
     road: str,
     temperatures: list[float | None],
+    roads: list[int],
     shown: float | None,
 ) -> None:
     """Write the page.
@@ -42,6 +47,8 @@ def main(
     scenes, digests : list of str
         Paths of results with the height-to-width ratio ``aspect`` (netCDF), those of the whole road among them, and the
         digests that they must have. A refusal has no picture.
+    roads : list of int
+        On which of several roads each of them is, from 1; else 0.
     collected : list of str
         What the collections ``campaign`` and ``whole`` are known by.
     aspect : float
@@ -59,9 +66,10 @@ def main(
     payloads = {}
     for one in dict.fromkeys(temperatures):
         results = (
-            dataset.read(path, digest)
-            for path, digest, warm in zip(scenes, digests, temperatures, strict=True)
-            if warm == one and not refused(path)
+            result
+            for path, digest, warm, number in zip(scenes, digests, temperatures, roads, strict=True)
+            if warm == one
+            for result in read(path, digest, number)
         )
         payloads[one] = payload(
             at_temperature(gathered, one),
@@ -75,8 +83,12 @@ def main(
     write_page(page(together(payloads, shown)), output)
 
 
-def refused(path: str) -> bool:
-    """Return whether a file holds the refusal of a scene."""
+def read(path: str, digest: str, number: int) -> Iterator[xr.Dataset]:
+    """Yield a result that was not refused; of several roads a refused one too, and on which of them it is."""
     check_seal(path)
     with netCDF4.Dataset(path) as stored:
-        return REFUSAL in stored.ncattrs()
+        refused = REFUSAL in stored.ncattrs()
+    if number:
+        yield dataset.read(path, digest, refusals=True).assign_attrs({NUMBER: number})
+    elif not refused:
+        yield dataset.read(path, digest)

@@ -7,7 +7,7 @@ from rubfric.results.draws import over_draws
 
 
 def main(output: str, scenes: dict[str, dict[str, str]], mark: str) -> None:
-    """Write the collection: of one road, or the mean over roads of random phases.
+    """Write the collection: of one road, or the mean over roads of random phases or windows of one.
 
     Parameters
     ----------
@@ -20,5 +20,5 @@ def main(output: str, scenes: dict[str, dict[str, str]], mark: str) -> None:
         Path of an empty file whose name represents these digests; it takes the place of such files beside it.
     """
     roads = {draw: collect(paths, paths.values()) for draw, paths in scenes.items()}
-    write(roads[""] if "" in roads else over_draws(list(roads.values())), output)
+    write(roads[""] if "" in roads else over_draws(list(roads.values()), windows="window1/" in roads), output)
     leave(mark)

@@ -5,7 +5,7 @@ from typing import Any
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
-from rubfric.results.scales import WAYS
+from rubfric.results.scales import RUBBER_PART, WAYS
 from rubfric.results.tables import write_table
 from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
@@ -39,16 +39,24 @@ def main(
     """
     about = {one: WholeRoad.from_parameters(road) for one, road in roads.items()}
     table = total_tables(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
-    aspect = next(iter(about.values())).aspect
+    first = next(iter(about.values()))
+    aspect, windows = first.aspect, first.windows
+    what = f"a block {first.height:g} mm high on the measured profile itself" if windows else "all scales at once"
+    several = "windows of the measured road" if windows else "random phases, where they were drawn"
+    law = "the choice of its finite-strain law"
+    data = (
+        f"and rubber, what the data of the measured rubber leave open. It does not cover {law}."
+        if RUBBER_PART in table
+        else f"it does not cover the data of the rubber or {law}."
+    )
     write_table(table, output)
     words = (
         f"Friction of every scale and of the whole road, for blocks {aspect:g} times as high as the coarsest "
-        "wave is long. The total is that of the column way: direct is all scales at once, sum the paper's sum over "
+        f"wave is long. The total is that of the column way: direct is {what}, sum the paper's sum over "
         "the scales, corrected that sum times what coupling does in small strain, cascade a cascade of pressures from "
-        "scale to scale, persson Persson's theory. Its error is absolute and has three parts: numerics; coupling, by "
-        "how much a model of the interaction of the scales may be off; and road, the standard error of the mean over "
-        "random phases, where they were drawn. It does not cover the data of the rubber or the choice of its "
-        "finite-strain law. The spreadsheet has the errors of the other ways too."
+        "scale to scale, persson Persson's theory. Its error is absolute and the sum of its parts: numerics; coupling, "
+        "by how much a model of the interaction of the scales may be off; road, the standard error of the mean over "
+        f"{several}; {data} The spreadsheet has the errors of the other ways too."
     )
     shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
     write_page(table_page(shown, f"{title}: all scales", words, group="pressure_MPa"), page)

@@ -40,11 +40,12 @@ function opened(numbers, about) {
 function frameOf(road, pictures) {
   const { wavelength, period, crest, lowest, highest } = road;
   const top = Math.max(...pictures.map((about) => about.y[1]), 0);
+  const unit = road.windows ? top - lowest : wavelength; // the coarsest wave of a window is as long as the window
   return {
     left: period ? 0 : crest - 0.625 * wavelength,
     right: period ?? crest + 0.625 * wavelength,
-    bottom: lowest - 0.11 * wavelength,
-    top: Math.min(top, highest + wavelength) + 0.04 * wavelength,
+    bottom: lowest - 0.11 * unit,
+    top: Math.min(top, highest + wavelength) + 0.04 * unit,
   };
 }
 

@@ -29,17 +29,27 @@ function pointWords(data, place, pressure, speed) {
   const share = relative(friction, error);
   lines.push(`<b>μ ${measured(friction, error)}</b>${share ? ` (${share})` : ""}`);
   if (place === "total") {
-    lines.push(WAY_NAMES[data.totals.way[pressure][speed]]);
+    lines.push(WAY_NAMES[data.totals.way[pressure][speed]], ...partsWords(data, pressure, speed));
     for (const way of ["sum", "corrected", "cascade", "persson"]) {
       const { friction: of, error: off } = data.totals.ways[way];
       if (of[pressure][speed] !== null) lines.push(`${WAY_NAMES[way]}: ${measured(of[pressure][speed], off[pressure][speed])}`);
     }
   } else {
-    const scene = data.scenes[place][pressure][speed];
-    if (scene.rubberError > 0) lines.push(`rubber's data: ± ${roundedUp(scene.rubberError).text}`);
-    lines.push(`contact ${percent(scene.contact)}`, scene.finite ? "finite strain" : "small strain");
+    if (place === "whole" && data.whole.draws) lines.push(`mean over ${data.whole.draws} ${data.whole.windows ? "windows" : "random roads"}`);
+    lines.push(...sceneWords(data.scenes[place][pressure][speed]).slice(1));
   }
   return lines.join("<br>");
+}
+
+/** The words about a scene: its friction, what the rubber's data leave open, its contact and kinematics. */
+function sceneWords(scene) {
+  const share = relative(scene.friction, scene.error);
+  const mixed = scene.finite > 0 && scene.finite < 1; // a mean over several roads
+  return [
+    `<b>μ ${measured(scene.friction, scene.error)}</b>${share ? ` (${share})` : ""}`,
+    ...(scene.rubberError > 0 ? [`rubber’s data: ± ${roundedUp(scene.rubberError).text}`] : []),
+    `contact ${percent(scene.contact)}`, mixed ? "small and finite strain" : scene.finite ? "finite strain" : "small strain",
+  ];
 }
 
 /** Stretches of neighbouring speeds of which friction and error are known. */
@@ -112,9 +122,10 @@ function curvesPlot(data, chosen) {
   };
   const x = data.speeds[chosen.speed];
   const total = chosen.place === "total", compared = total ? [comparison(data, chosen)] : [];
-  const top = Math.max(highestOf(curve), ...compared.flatMap(({ y }) => y.map((value) => value ?? 0)));
+  const apart = chosen.place === "whole" ? roadPoints(data, chosen).flatMap(({ y }) => y.map((value) => value ?? 0)) : [];
+  const top = Math.max(highestOf(curve), ...apart, ...compared.flatMap(({ y }) => y.map((value) => value ?? 0)));
   return {
-    traces: [...bands, ...rings, ...compared, ...lines, point, ...(total ? [crosses(data)] : [])],
+    traces: [...bands, ...rings, ...compared, ...lines, ...(chosen.place === "whole" ? roadPoints(data, chosen) : []), point, ...(total ? [crosses(data)] : [])],
     layout: {
       ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", hoverdistance: 30, dragmode: false,
       xaxis: speedAxis(data.speeds),

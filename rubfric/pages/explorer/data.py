@@ -13,34 +13,16 @@ import xarray as xr
 
 from rubfric.errors import InvalidInput
 from rubfric.pages.explorer.palette import palette
-from rubfric.pages.explorer.pictures import WIDER, Store, is_whole, picture
-from rubfric.pages.explorer.totals import WHOLE, about, by_way, on_axes, reasons
-from rubfric.results.selection import RUBBER_ERROR, check_variables, find_peak, position
+from rubfric.pages.explorer.pictures import WIDER
+from rubfric.pages.explorer.roads import about, pictured, whole_error
+from rubfric.pages.explorer.scenes import ERROR, FRICTION, SCALARS, cells, numbers, pictures, plain
+from rubfric.pages.explorer.totals import WHOLE, by_way, on_axes, reasons
+from rubfric.results.selection import DRAWS, check_variables, find_peak, position
 
-_FRICTION, _ERROR = "friction_coefficient", "friction_coefficient_error"
-# Numbers of every scene: variable, name in the page.
-_SCALARS = {
-    _FRICTION: "friction",
-    _ERROR: "error",
-    "friction_coefficient_dissipation": "dissipation",
-    "friction_coefficient_contact": "contactRoute",
-    "energy_closure": "closure",
-    "contact_fraction": "contact",
-    "maximum_contact_pressure": "largest",
-    "maximum_local_contact_pressure": "largestLocal",
-    "nominal_compression": "compression",
-    "finite_strain": "finite",
-    "columns": "columns",
-    "rows": "rows",
-}
-# And of a measured rubber.
-_RUBBER = {RUBBER_ERROR: "rubberError"}
 _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
-# Most nodes of a picture, over the height and along a wavelength, and the fewest; of how many pictures the most are
-# kept, so that the page stays below 10 MB.
-_MOST, _FEWEST, _ROOM = (28, 128), (12, 32), 400
-# Per cent of the scenes whose lowest energies the common scale leaves out, and its least length in decades.
-_LOWEST, _LENGTH = 10.0, 0.5
+# Of how many pictures the most nodes are kept, so that the page stays below 8 MB; of several roads, whose pictures are
+# larger than their weight, of half as many.
+_ROOM = 340
 
 
 def payload(
@@ -62,7 +44,7 @@ def payload(
         The friction of the whole road, as from ``results.totals.total_table``; of one scale it is not shown.
     results : iterable of xarray.Dataset
         As built by ``results.dataset.build``, at this height-to-width ratio; a scene without one has numbers but no
-        picture.
+        picture. Of several roads each result says on which it is (``roads.NUMBER``), refused ones among them.
     aspect : float
         Height over width of the blocks.
     road : str
@@ -94,23 +76,27 @@ def payload(
         found["totals"] = _all_plain(totals)
     if whole is not None:
         placed = on_axes(whole, axes)
-        curves[WHOLE] = _curve(placed[_FRICTION].values, placed[_ERROR].values)
-        scenes[WHOLE] = _cells(placed)
+        curves[WHOLE] = _curve(placed[FRICTION].values, whole_error(placed, ERROR))
+        scenes[WHOLE] = cells(placed)
         found["refusals"] = reasons(whole, axes)
-    packed, energies, pictured = _pictures(results, axes, scenes, aspect, share * _ROOM)
+    count = sum(cell is not None for name, rows in scenes.items() if name != WHOLE for row in rows for cell in row)
+    count += 0 if whole is None else WIDER * pictured(placed, FRICTION)
+    several = whole is not None and DRAWS in whole
+    thinned = min(1.0, math.sqrt(share * _ROOM * (0.5 if several else 1.0) / count))
+    store, energies, roads, refused = pictures(results, axes, scenes, aspect, thinned)
     if whole is not None:
-        found[WHOLE] = about(whole, pictured)
+        found[WHOLE] = about(whole, roads, refused)
     return {
         "about": {name: str(campaign.attrs.get(name, "unknown")) for name in _ABOUT}
         | {"road": road, "aspect": aspect, "accuracy": _accuracy(campaign)},
-        "speeds": _plain(axes["velocity"]),
-        "pressures": _plain(axes["pressure"]),
+        "speeds": plain(axes["velocity"]),
+        "pressures": plain(axes["pressure"]),
         "scales": [_scale(grid.sel(scale=number)) for number in axes["scale"]],
         "curves": curves,
         "scenes": scenes,
         "colours": palette(axes["pressure"].size, axes["scale"].size),
         "energies": energies,
-        "pictures": packed,
+        "pictures": store.packed(),
         **found,
     }
 
@@ -132,15 +118,15 @@ def together(payloads: Mapping[float | None, dict[str, Any]], shown: float | Non
 
 def _grid(campaign: xr.Dataset, aspect: float) -> xr.Dataset:
     """Return the campaign at one ratio, over scale, pressure and speed, without those of which nothing was run."""
-    check_variables(campaign, *_SCALARS, "amplitude", "wavenumber")
-    grid = campaign[[*_numbers(campaign), "amplitude", "wavenumber"]].isel(
+    check_variables(campaign, *SCALARS, "amplitude", "wavenumber")
+    grid = campaign[[*numbers(campaign), "amplitude", "wavenumber"]].isel(
         aspect=position(campaign, "aspect", aspect), drop=True
     )
     grid = grid.sortby(["scale", "pressure", "velocity"]).transpose("scale", "pressure", "velocity")
     for axis in ("pressure", "velocity"):
         others = [other for other in ("scale", "pressure", "velocity") if other != axis]
-        grid = grid.isel({axis: np.flatnonzero(grid[_FRICTION].notnull().any(others).values)})
-    if not grid[_FRICTION].size:
+        grid = grid.isel({axis: np.flatnonzero(grid[FRICTION].notnull().any(others).values)})
+    if not grid[FRICTION].size:
         raise InvalidInput(f"the campaign holds no friction coefficient at the height-to-width ratio {aspect:g}")
     return grid
 
@@ -164,81 +150,23 @@ def _scale(grid: xr.Dataset) -> dict[str, Any]:
 def _curves(grid: xr.Dataset) -> dict[str, Any]:
     """Return friction, its error and peaks of every scale."""
     return {
-        str(number): _curve(*(grid[name].sel(scale=number).values for name in (_FRICTION, _ERROR)))
+        str(number): _curve(*(grid[name].sel(scale=number).values for name in (FRICTION, ERROR)))
         for number in grid["scale"].values
     }
 
 
 def _curve(friction: np.ndarray, error: np.ndarray) -> dict[str, Any]:
     peaks = [find_peak(*pair)._asdict() for pair in zip(friction, error, strict=True)]
-    return {"friction": _plain(friction), "error": _plain(error), "peaks": peaks}
+    return {"friction": plain(friction), "error": plain(error), "peaks": peaks}
 
 
 def _scenes(grid: xr.Dataset) -> dict[str, list[list[dict[str, Any] | None]]]:
     """Return the numbers of every scene by scale, pressure and speed; None where it was not run."""
-    return {str(number): _cells(grid.sel(scale=number)) for number in grid["scale"].values}
-
-
-def _cells(field: xr.Dataset) -> list[list[dict[str, Any] | None]]:
-    numbers = _numbers(field)
-    return [
-        [dict(zip(numbers.values(), _plain(cell), strict=True)) if np.isfinite(cell[0]) else None for cell in row]
-        for row in np.stack([field[name].values for name in numbers], axis=-1)
-    ]
-
-
-def _numbers(field: xr.Dataset) -> dict[str, str]:
-    """Return the numbers of every scene that there are: variable, name in the page."""
-    return _SCALARS | {name: shown for name, shown in _RUBBER.items() if name in field}
-
-
-def _pictures(
-    results: Iterable[xr.Dataset], axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float, room: float
-) -> tuple[str, list[float], xr.Dataset | None]:
-    """Add picture, reason and warnings of every result to its scene; return the packed numbers and their energies.
-
-    Energies are decimal logarithms of MPa, the ends of the scale that all pictures share. The last is any result of the
-    whole road.
-    """
-    store, low, high, whole = Store(), [], [], None
-    weights = {name: WIDER if name == WHOLE else 1 for name in scenes}
-    count = sum(weights[name] * (scene is not None) for name, rows in scenes.items() for row in rows for scene in row)
-    share = min(1.0, math.sqrt(room / count))
-    most = [max(fewest, int(share * size)) for size, fewest in zip(_MOST, _FEWEST, strict=True)]
-    for result in results:
-        scene = _found(result, axes, scenes, aspect)
-        made = picture(result, *most)
-        whole = result if is_whole(result) else whole
-        low.append(made.about["floor"])
-        high.append(made.about["energy"][1])
-        scene["picture"] = store.add(made)
-        scene["reason"] = result.attrs["kinematics_reason"]
-        scene["warnings"] = [sentence for sentence in result.attrs["warnings"].split("\n") if sentence]
-    top = max(high, default=0.0)
-    return store.packed(), [min(float(np.percentile(low, _LOWEST)) if low else -3.0, top - _LENGTH), top], whole
-
-
-def _found(result: xr.Dataset, axes: dict[str, np.ndarray], scenes: dict[str, Any], aspect: float) -> dict[str, Any]:
-    """Return the scene of a result."""
-    places = [np.flatnonzero(axes[axis] == result.attrs[axis]) for axis in ("pressure", "velocity")]
-    name, scene = WHOLE if is_whole(result) else str(result.attrs["scale"]), None
-    if all(place.size for place in places) and result.attrs["aspect"] == aspect and name in scenes:
-        pressure, speed = (int(place[0]) for place in places)
-        scene = scenes[name][pressure][speed]
-    if scene is None:
-        raise InvalidInput(f"the scene {result.attrs['scene']} is not among those of the page")
-    return scene
-
-
-def _plain(values: np.ndarray) -> Any:
-    """Return numbers as lists, to eight digits, None for NaN."""
-    if values.ndim > 1:
-        return [_plain(row) for row in values]
-    return [float(f"{value:.8g}") if math.isfinite(value) else None for value in values.tolist()]
+    return {str(number): cells(grid.sel(scale=number)) for number in grid["scale"].values}
 
 
 def _all_plain(nested: Any) -> Any:
     """Return nested dictionaries with every array as lists."""
     if isinstance(nested, dict):
         return {name: _all_plain(one) for name, one in nested.items()}
-    return _plain(nested) if isinstance(nested, np.ndarray) else nested
+    return plain(nested) if isinstance(nested, np.ndarray) else nested

@@ -10,7 +10,7 @@ let drawn = Promise.resolve();
 
 // ---- What is chosen, and the address that says so ----
 
-const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, spot: null };
+const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, road: 0, spot: null };
 
 /** The scene of highest friction at a place: what a visitor sees first. */
 function highestScene(place) {
@@ -33,11 +33,13 @@ function readAddress() {
   const [pressure, speed] = [nearest(data.pressures, "pressure"), nearest(data.speeds, "speed")];
   if (pressure >= 0) chosen.pressure = pressure;
   if (speed >= 0) chosen.speed = speed;
+  const road = Number(said.get("road")) - 1;
+  if (said.has("road") && road in severalRoads(data)) chosen.road = road;
 }
 
 function address(warm = temperatures[warmth]) {
   const { place, view, pressure, speed } = chosen;
-  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${addressed(warm)}`;
+  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${severalRoads(data).length ? `&road=${chosen.road + 1}` : ""}${addressed(warm)}`;
 }
 
 /** Choose, within what there is, and draw; many choices in one frame are drawn once. */
@@ -51,27 +53,6 @@ function choose(changes) {
 
 // ---- Controls ----
 
-/** A radio button that looks like a part of a row. */
-function option(group, value, ...label) {
-  const input = element("input", { type: "radio", name: group, value });
-  return element("label", { class: "option" }, input, element("span", {}, ...label));
-}
-
-function swatch(pressure) {
-  const name = "http://www.w3.org/2000/svg";
-  const drawing = document.createElementNS(name, "svg");
-  drawing.setAttribute("width", "22");
-  drawing.setAttribute("height", "6");
-  drawing.setAttribute("aria-hidden", "true");
-  const line = document.createElementNS(name, "line");
-  const look = { x1: 0, x2: 22, y1: 3, y2: 3, stroke: data.colours.pressures[pressure], "stroke-width": 3 };
-  const dash = DASHES[pressure % DASHES.length];
-  if (dash !== "solid") look["stroke-dasharray"] = dash.replaceAll("px", "");
-  for (const [key, value] of Object.entries(look)) line.setAttribute(key, value);
-  drawing.append(line);
-  return drawing;
-}
-
 function makeControls() {
   for (const place of places) {
     const scale = data.scales.find(({ number }) => String(number) === place);
@@ -79,11 +60,11 @@ function makeControls() {
     byId("places").append(option("place", place, ...label));
   }
   byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
-  data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(order), plain(pressure))));
+  data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(data.colours.pressures[order], DASHES[order % DASHES.length]), plain(pressure))));
   byId("speed").max = data.speeds.length - 1;
   byId("speed").disabled = data.speeds.length < 2;
   byId("choices").addEventListener("change", ({ target }) => choose({ [target.name]: target.value }));
-  byId("scene-choices").addEventListener("input", ({ target }) => choose({ [target.id === "speed" ? "speed" : "pressure"]: Number(target.value) }));
+  byId("scene-choices").addEventListener("input", ({ target }) => choose({ [target.name]: Number(target.value) }));
   for (const form of document.forms) form.addEventListener("submit", (event) => event.preventDefault());
   const steps = { ArrowLeft: ["speed", -1], ArrowRight: ["speed", 1], ArrowDown: ["pressure", -1], ArrowUp: ["pressure", 1] };
   byId("chart").addEventListener("keydown", (event) => {
@@ -98,7 +79,8 @@ function makeControls() {
 }
 
 function showControls() {
-  for (const [name, value] of [["place", chosen.place], ["view", chosen.view], ["pressure", chosen.pressure]]) {
+  byId("roads").hidden = !severalRoads(data).length || !["total", "whole"].includes(chosen.place);
+  for (const [name, value] of Object.entries(chosen)) {
     for (const input of document.getElementsByName(name)) input.checked = input.value === String(value);
   }
   byId("speed").value = chosen.speed;
@@ -110,15 +92,19 @@ function showControls() {
 
 function placeName(place) { return { total: "Total", whole: "Whole road" }[place] ?? `Scale ${place}`; }
 
-function roadOf(place) { return place === "whole" ? data.whole : data.scales.find(({ number }) => String(number) === place); }
+function roadOf(place) { return place === "whole" ? wholeRoad(data, chosen) : data.scales.find(({ number }) => String(number) === place); }
+
+/** The scene at a place; of several roads that on the chosen one. */
+function sceneAt(place) { return data.scenes[roadOf(place).number]?.[chosen.pressure][chosen.speed] ?? null; }
 
 function sceneName() { return `${speedOf(data.speeds[chosen.speed])}, ${pressureOf(data.pressures[chosen.pressure])}`; }
 
 function showAbout() {
   const { plane, kinematics, accuracy, aspect, source, references } = data.about;
   const scales = data.scales.length === 1 ? "one scale" : `${data.scales.length} scales`;
+  const measuredRoad = data.whole?.windows ? `, and the profile itself in ${severalRoads(data).length} windows of ${rounded(severalRoads(data)[0].period, 3)}${THIN}mm` : "";
   const asked = accuracy === null ? "" : `, accuracy asked for ${percent(accuracy)}`;
-  byId("about").textContent = `${rubberAt()}Road of ${scales}; block ${plain(aspect)} times as high as wide, plane ${plane}; ` +
+  byId("about").textContent = `${rubberAt()}Road of ${scales}${measuredRoad}; block ${plain(aspect)} times as high as wide${measuredRoad && " on each scale"}, plane ${plane}; ` +
     `kinematics ${kinematics}${asked}. Steady sliding; friction is what the rubber dissipates.`;
   byId("footer").textContent = `${source}. After ${references}. ± is the estimated error. ${limitsWords(data)}`;
 }
@@ -132,11 +118,12 @@ function showWords() {
   byId("peak").textContent = peakWords(curve, pressure, data.pressures, data.speeds);
   byId("marks").textContent = marksWords(curve, chosen, data);
   byId("scene-title").textContent = `${placeName(place)} at ${sceneName()}`;
-  byId("numbers-title").textContent = place === "total" ? "The scales, and five ways to the total" : "The numbers of this scene";
+  const several = place === "whole" && severalRoads(data).length;
+  byId("numbers-title").textContent = place === "total" ? "The scales, and five ways to the total" : several ? `Every ${data.whole.windows ? "window" : "random road"}, and their mean` : "The numbers of this scene";
   const none = sentence(place === "whole" ? whyNot(data, pressure, speed) : "not run").slice(0, -1);
   byId("covers").textContent = place === "total" ? coversTotal(data, chosen) : coversScene(data, chosen, data.scenes[place][pressure][speed]);
   byId("headline").replaceChildren(friction === null ? none : `μ = ${measured(friction, error)} `, element("small", {}, share && `(${share})`));
-  byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}`;
+  byId("summary").textContent = `${placeName(place)} at ${sceneName()}: friction ${measured(friction, error)}${several ? `.${roadAlone(data, chosen)}` : ""}`;
   const keys = "Left and right arrows choose the speed, up and down arrows the pressure.";
   byId("chart").setAttribute("aria-label", `${byId("chart-title").textContent}. ${keys}`);
 }
@@ -148,7 +135,8 @@ const framed = new Map();
 /** The frame of a road: the same for all its scenes, so that they can be compared. */
 function frame(scale) {
   if (!framed.has(scale.number)) {
-    const about = data.scenes[scale.number].flat().map((scene) => scene?.picture).filter(Boolean);
+    const alike = scale.period && severalRoads(data).length ? severalRoads(data).map(({ number }) => number) : [scale.number];
+    const about = alike.flatMap((number) => data.scenes[number] ?? []).flat().map((scene) => scene?.picture).filter(Boolean);
     framed.set(scale.number, frameOf(scale, about));
   }
   return framed.get(scale.number);
@@ -158,7 +146,7 @@ function pictureOf(scene) { return numbers && scene?.picture ? opened(numbers, s
 
 function showScene(place) {
   const scale = roadOf(place);
-  const scene = data.scenes[place][chosen.pressure][chosen.speed];
+  const scene = sceneAt(place);
   const picture = pictureOf(scene);
   byId("small-pictures").replaceChildren();
   byId("energies").replaceChildren(...(picture ? energyScale(data.energies, data.colours.energy) : []));
@@ -167,14 +155,15 @@ function showScene(place) {
   byId("caption").replaceChildren();
   byId("numbers").replaceChildren();
   byId("warnings").replaceChildren(...warningsOf([[place, scene]]));
-  if (scene) byId("numbers").replaceChildren(sceneNumbers(scene));
+  if (place === "whole" && severalRoads(data).length) byId("numbers").append(...roadsTable(data, chosen, scene));
+  if (scene) byId("numbers").append(sceneNumbers(scene));
   if (!picture) return null;
   const how = picture.finite
     ? "Displacements are to scale; the white lines made squares before deformation."
     : `Small strain: only vertical displacements are shown, to scale, without the mean compression of ${percent(scene.compression)}.`;
   const hint = (ZOOMS ? " Drag to zoom, double click to see all again." : "") + (scale.period ? " Click on the block to magnify another spot." : "");
-  const seen = scale.period ? ` One period of the road, and the framed spot, ${rounded(0.75 * scale.wavelength, 2)}${THIN}mm wide, magnified.` : "";
-  const drawn = place === "whole" && scale.draws ? " The picture is of the first of the random roads." : "";
+  const seen = scale.period ? ` One period of the road, and the framed spot, ${rounded(scale.spot, 2)}${THIN}mm wide, magnified.` : "";
+  const drawn = place === "whole" && scale.draws ? ` The picture is of ${roadName(data, chosen.road)}.` : "";
   byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below.${seen} ${how}${drawn}`,
     element("span", { class: "fine" }, hint));
   byId("picture").setAttribute("aria-label", `The deformed block on ${placeName(place).toLowerCase()} at ${sceneName()}, in contact on ${percent(scene.contact)} of its area.`);
@@ -189,23 +178,24 @@ function showScene(place) {
 
 function smallPicture(road) {
   const { number, period } = road, name = period ? "whole road" : `scale ${number}`;
-  const picture = pictureOf(data.scenes[number][chosen.pressure][chosen.speed]);
+  const place = period ? "whole" : String(number);
+  const picture = pictureOf(sceneAt(place));
   const button = element("button", { type: "button", class: period ? "small wide" : "small", title: `Show ${period ? "the " : ""}${name}` });
   if (picture) button.append(paintSmall(picture, road, frame(road), period ? 1400 : 320, colours, data.energies));
   button.append(name);
-  button.addEventListener("click", () => { choose({ place: String(number) }); byId("places").querySelector(`[value="${number}"]`).focus(); });
+  button.addEventListener("click", () => { choose({ place }); byId("places").querySelector(`[value="${place}"]`).focus(); });
   return button;
 }
 
 function showTotal() {
-  const pictured = data.whole && pictureOf(data.scenes.whole[chosen.pressure][chosen.speed]);
+  const pictured = data.whole && pictureOf(sceneAt("whole"));
   const shown = [...data.scales.map(({ number }) => String(number)), ...(data.whole ? ["whole"] : [])];
-  const scenes = shown.map((place) => [place, data.scenes[place][chosen.pressure][chosen.speed]]);
-  byId("small-pictures").replaceChildren(...[...(pictured ? [data.whole] : []), ...data.scales].map(smallPicture));
+  const scenes = shown.map((place) => [place, sceneAt(place)]);
+  byId("small-pictures").replaceChildren(...[...(pictured ? [roadOf("whole")] : []), ...data.scales].map(smallPicture));
   byId("energies").replaceChildren();
   byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
     "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored." +
-    (data.whole?.draws ? ` The whole road in the picture is the first of ${data.whole.draws} with random phases.` : "");
+    (severalRoads(data).length ? ` The whole road in the picture is ${roadName(data, chosen.road)}.` : "");
   byId("spot").hidden = true;
   byId("numbers").replaceChildren(totalNumbers(data, chosen));
   byId("warnings").replaceChildren(...warningsOf(scenes));
@@ -237,7 +227,7 @@ function listen(plot) {
   plot.on("plotly_click", ({ points }) => {
     const place = points[0]?.customdata;
     if (chosen.place === "whole" && plot.id === "picture") choose({ spot: points[0].x });
-    else if (Array.isArray(place)) choose({ pressure: place[0], speed: place[1] });
+    else if (Array.isArray(place)) choose({ pressure: place[0], speed: place[1], ...(place.length > 2 && { road: place[2] }) });
   });
 }
 
@@ -245,7 +235,8 @@ async function begin() {
   const first = highestScene(places[0]);
   Object.assign(chosen, { pressure: first.pressure, speed: first.speed });
   readAddress();
-  for (const make of [showAbout, makeControls, makeTemperatures]) make();
+  if (data.whole?.windows) WAY_NAMES.direct = "the profile itself";
+  for (const make of [showAbout, makeControls, makeTemperatures, () => makeRoads(data)]) make();
   document.querySelector("main").hidden = false;
   try {
     numbers = await unpack(data.pictures);

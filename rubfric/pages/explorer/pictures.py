@@ -24,6 +24,8 @@ STEPS = 65535
 _WIDTH, _TOUCHING = 1.25, 190
 # The whole road keeps this many times as many columns as a scale, and lines of the net to a coarsest wavelength.
 WIDER, _LINES = 6, 8
+# And is as wide as this share of the height at most: a window of a measured road is longer than its block is high.
+_LINES_UP = 0.25
 # Density is drawn on a logarithmic scale; below this share of a scene's largest there is nothing to see.
 _NEGLIGIBLE = 1e-7
 # Share of the nodes, in per cent, with the lowest density, which would take most of that scale.
@@ -91,7 +93,9 @@ def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:
         raise InvalidInput(f"the result {result.attrs.get('scene', 'without a name')} lacks {', '.join(lacking)}")
     whole = is_whole(result)
     left, right = stretch(result)
-    block = deform(result, left, right, profile(result).wavelength / _LINES if whole else None)
+    height = float(np.ptp(result["mesh_node_y"].values))
+    pitch = min(profile(result).wavelength / _LINES, _LINES_UP * height) if whole else None
+    block = deform(result, left, right, pitch)
     longer = WIDER if whole else _WIDTH
     across = _evenly(block.x.shape[1], round(longer * columns))
     up = _evenly(block.x.shape[0], rows)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -10,16 +9,13 @@ import pandas as pd
 import xarray as xr
 
 from rubfric.figures.columns import check_columns
-from rubfric.figures.deformation import profile
 from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WORDS
-from rubfric.results.selection import DRAWS, refusals
+from rubfric.results.selection import refusals
 
 # The place of the scenes of the whole road on the page.
 WHOLE = "whole"
 WAYS = ("sum", "corrected", "cascade", "persson", "direct")
 _PARTS = ("numerical", "coupling", "road")
-# Points among which the lowest and the highest of the road are found.
-_POINTS = 16384
 
 Axes = dict[str, np.ndarray]
 
@@ -76,35 +72,10 @@ def on_axes(whole: xr.Dataset, axes: Axes) -> xr.Dataset:
 
 def reasons(whole: xr.Dataset, axes: Axes) -> list[list[str | None]]:
     """Return why scenes of the whole road were refused, over pressure and speed."""
-    # A scene that does not converge says its name first, which the page has said already.
-    said = {
-        (pressure, velocity): reason.partition(": ")[2] if reason.startswith("all_") else reason
-        for (_, velocity, pressure, _), reason in refusals(whole).items()
-    }
+    said = {(pressure, velocity): bare(reason) for (_, velocity, pressure, _), reason in refusals(whole).items()}
     return [[said.get((pressure, velocity)) for velocity in axes["velocity"]] for pressure in axes["pressure"]]
 
 
-def about(whole: xr.Dataset, result: xr.Dataset | None) -> dict[str, Any]:
-    """Return what the page has to know of the road: its waves, mm, 1/mm and rad, its size, and its highest crest.
-
-    Parameters
-    ----------
-    whole : xarray.Dataset
-    result : xarray.Dataset or None
-        Of any scene on it that is pictured.
-    """
-    found: dict[str, Any] = {"number": WHOLE, "draws": int(whole[DRAWS].max()) if DRAWS in whole else 0}
-    if result is None:
-        return found | {"wavelength": 2.0 * math.pi / float(whole["wavenumber"].min()), "waves": []}
-    road = profile(result)
-    x = np.linspace(0.0, road.period, _POINTS)
-    heights = road.height(x)
-    waves = road.waves
-    return found | {
-        "wavelength": road.wavelength,
-        "period": road.period,
-        "waves": np.stack((waves.amplitudes, waves.wavenumbers, waves.phases), axis=1).tolist(),
-        "lowest": float(heights.min()),
-        "highest": float(heights.max()),
-        "crest": float(x[np.argmax(heights)]),
-    }
+def bare(reason: str) -> str:
+    """Return a reason without the name of its scene, which the page has said already."""
+    return reason.partition(": ")[2] if reason.startswith("all_") else reason

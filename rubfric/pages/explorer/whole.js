@@ -3,10 +3,22 @@
 
 const WAY_NAMES = { sum: "sum of the scales", corrected: "sum, corrected for the coupling", cascade: "cascade from scale to scale", persson: "Persson’s theory", direct: "all scales at once" };
 
-/** Of which road a total is. */
+/** What several roads are. */
+function drawnWords(data) {
+  return data.whole?.windows ? "windows of the measured road" : "roads with random phases";
+}
+
+/** Of which road a total is, after what it is. */
 function roadWords(data) {
   const draws = data.whole?.draws ?? 0;
-  return draws ? `mean over ${draws} roads with random phases` : "on one road, with these phases";
+  return draws ? `, mean over ${draws} ${drawnWords(data)}` : " on one road, with these phases";
+}
+
+/** The parts of the error of a total that has several, for the words under the pointer. */
+function partsWords(data, pressure, speed) {
+  const names = { numerical: "mesh and solver", coupling: "coupling of the scales", road: data.whole?.windows ? "so few windows" : "so few random roads", rubber: "rubber’s data" };
+  const parts = Object.entries(data.totals.parts).map(([part, values]) => [names[part], values[pressure][speed]]).filter(([, value]) => value > 0);
+  return parts.length > 1 ? parts.map(([name, value]) => `± ${roundedUp(value).text} by ${name}`) : [];
 }
 
 /** Why the whole road has no friction there, in two words. */
@@ -24,19 +36,22 @@ function coversTotal(data, { pressure, speed }) {
   const share = (name, words) => (of(name) ? [`${words} (${rounded(of(name), 2)})`] : []);
   const covered = [
     ...share("numerical", "mesh and solver"), ...share("coupling", "what it may miss of the coupling of the scales"),
-    ...share("road", "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
+    ...share("road", data.whole?.windows ? "so few windows of the road" : "so few random roads"), ...(parts.rubber ? share("rubber", "the rubber's data") : []),
   ];
-  const about = taken === "direct" ? `${WAY_NAMES.direct} ${roadWords(data)}` : WAY_NAMES[taken];
+  const about = taken === "direct" ? `${WAY_NAMES.direct}${roadWords(data)}` : WAY_NAMES[taken];
   const said = taken === "direct" ? "" : ` ${sentence(note[pressure][speed] ?? "")}`;
   return `${sentence(about)} ± covers ${covered.join(" and ") || "nothing"}.${said.trim() === "." ? "" : said}`;
 }
 
 /** What the error of a scene covers, or why there is no result. */
-function coversScene(data, { place, pressure, speed }, scene) {
+function coversScene(data, chosen, scene) {
+  const { place, pressure, speed } = chosen;
   const reason = place === "whole" && data.refusals[pressure][speed];
   if (!scene) return reason ? sentence(reason) : "";
-  return `${place === "whole" ? sentence(`all scales at once ${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver.` +
-    (scene.rubberError > 0 ? ` The rubber's data leave ± ${roundedUp(scene.rubberError).text} beside that.` : "");
+  const few = place === "whole" && data.whole.draws ? data.curves.whole.error[pressure][speed] - scene.error : 0;
+  const parts = few > 0 ? ` (${rounded(scene.error, 2)}) and so few ${data.whole.windows ? "windows" : "random roads"} (${rounded(few, 2)})` : "";
+  return `${place === "whole" ? sentence(`${WAY_NAMES.direct}${roadWords(data)}`) : "This scale alone."} ± covers mesh and solver${parts}.` +
+    (scene.rubberError > 0 ? ` The rubber’s data leave ± ${roundedUp(scene.rubberError).text} beside that.` : "") + (place === "whole" ? roadAlone(data, chosen) : "");
 }
 
 /** What no error covers. */
@@ -68,9 +83,9 @@ function crosses(data) {
   return { ...found, mode: "markers", hoverinfo: "skip", marker: { symbol: "x-thin", size: 13, line: { width: 1.8, color: "#1d2129" } } };
 }
 
-/** The part of the whole road that is magnified, mm: three quarters of the coarsest wavelength. */
+/** The part of the whole road that is magnified, mm. */
 function spotFrame(road, place) {
-  const wide = 0.75 * road.wavelength;
+  const wide = road.spot;
   const left = Math.min(road.period - wide, Math.max(0, (place ?? road.crest) - 0.5 * wide));
   const heights = roadLine(road, { left, right: left + wide }, 300).y;
   return { left, right: left + wide, bottom: Math.min(...heights) - 0.08 * wide, top: Math.max(...heights) + 0.28 * wide };

@@ -3,9 +3,9 @@
 
 const THIN = "\u202f"; // narrow space that does not break
 
-/** A number as in the figures: 0.1, 10, 1000, 10 000. */
+/** A number as in the figures: 0.1, 10, 1000, 10 000, −5. */
 function plain(value) {
-  const text = String(Number(value.toPrecision(12)));
+  const text = String(Number(value.toPrecision(12))).replace("-", "−");
   if (text.includes("e") || Math.abs(value) < 10000) return text;
   const [whole, fraction] = text.split(".");
   const grouped = whole.replace(/\B(?=(\d{3})+$)/g, THIN);
@@ -69,6 +69,27 @@ function element(name, attributes = {}, ...children) {
   return made;
 }
 
+/** A radio button that looks like a part of a row. */
+function option(group, value, ...label) {
+  const input = element("input", { type: "radio", name: group, value });
+  return element("label", { class: "option" }, input, element("span", {}, ...label));
+}
+
+/** The line of a pressure. */
+function swatch(colour, dash) {
+  const name = "http://www.w3.org/2000/svg";
+  const drawing = document.createElementNS(name, "svg");
+  drawing.setAttribute("width", "22");
+  drawing.setAttribute("height", "6");
+  drawing.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS(name, "line");
+  const look = { x1: 0, x2: 22, y1: 3, y2: 3, stroke: colour, "stroke-width": 3 };
+  if (dash !== "solid") look["stroke-dasharray"] = dash.replaceAll("px", "");
+  for (const [key, value] of Object.entries(look)) line.setAttribute(key, value);
+  drawing.append(line);
+  return drawing;
+}
+
 function byId(id) { return document.getElementById(id); }
 
 /** What is known of the peak of a curve at one pressure, in words. */
@@ -105,5 +126,7 @@ function marksWords(curve, { view, place, pressure }, data) {
   const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
   const sum = place === "total" && view === "curves" ? `Dashed: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
   const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was not solved at once there." : "";
-  return [rings ? mark : "", error, sum, crossed].filter(Boolean).join(" ");
+  const apart = place === "whole" && view === "curves" && severalRoads(data).length
+    ? `Circles: each ${data.whole.windows ? "window" : "random road"} at ${pressureOf(data.pressures[pressure])}, filled the one that is shown.` : "";
+  return [rings ? mark : "", error, sum, crossed, apart].filter(Boolean).join(" ");
 }

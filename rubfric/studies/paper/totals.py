@@ -7,6 +7,7 @@ import pandas as pd
 import xarray as xr
 
 from rubfric.results.scales import AXES, TOTAL, total_error
+from rubfric.results.selection import WINDOWS
 from rubfric.studies.paper.claims import Evidence
 from rubfric.studies.paper.evidence import peak
 
@@ -35,14 +36,22 @@ def total_evidence(totals: pd.DataFrame, grid: xr.Dataset, difference: float) ->
             known = rows.dropna(subset=[total, whole])
             friction, error = (known[name].to_numpy(dtype=float) for name in (total, whole))
             found += peak("C7", part, where, friction, error)
-        for row in rows.dropna(subset=["friction_direct", "friction_direct_error"]).to_dict("records"):
-            velocity, direct = float(row["velocity_mm_per_s"]), float(row["friction_direct"])
-            base = max(abs(direct), float(np.finfo(float).tiny))
+        direct = rows[~_over_windows(rows)].dropna(subset=["friction_direct", "friction_direct_error"])
+        for row in direct.to_dict("records"):
+            velocity, friction = float(row["velocity_mm_per_s"]), float(row["friction_direct"])
+            base = max(abs(friction), float(np.finfo(float).tiny))
             slack = float(row["friction_direct_error"]) + float(numerical.sel(velocity=velocity, pressure=pressure))
-            value = abs(float(row["friction_sum"]) - direct) / base
+            value = abs(float(row["friction_sum"]) - friction) / base
             part = "the sum is the total"
             found.append(Evidence("C9", part, *where, velocity, value, slack / base, difference, "below"))
     return found
+
+
+def _over_windows(totals: pd.DataFrame) -> pd.Series:
+    """Return where the whole road is a mean over windows of a measured profile, which is no sum of scales."""
+    if "note" not in totals:
+        return pd.Series(False, index=totals.index)
+    return totals["note"].astype(str).str.contains(WINDOWS)
 
 
 def total_note(totals: pd.DataFrame) -> str:
@@ -50,6 +59,8 @@ def total_note(totals: pd.DataFrame) -> str:
     known = totals.dropna(subset=["friction_direct"])
     if known.empty:
         return "The whole road was not simulated."
+    if _over_windows(known).any():
+        return "Not judged: the whole road is a measured profile, and the scales are sines with its spectrum alone."
     ratio = known["friction_direct"] / known["friction_sum"]
     low, high = (
         f"{ratio[at]:.2f} ({known.loc[at, AXES[0]]:g} mm/s, {known.loc[at, AXES[1]]:g} MPa)"

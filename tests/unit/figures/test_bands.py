@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from rubfric.figures.bands import bands, draw_band, runs, upper
+from rubfric.figures.bands import bands, draw_band, draw_parts, part_handles, runs, upper
 
 PLACES = np.array([1.0, 10.0, 100.0, 1000.0])
 NAN = float("nan")
@@ -35,6 +35,26 @@ def test_nothing_is_drawn_where_the_error_is_unknown() -> None:
     panel = Figure().subplots()
     draw_band(panel, PLACES, np.full(4, 0.1), np.array([NAN, np.inf, NAN, NAN]), "red")
     assert bands(panel) == []
+
+
+def test_parts_of_an_error_lie_outside_of_each_other_and_are_paler() -> None:
+    panel, values = Figure().subplots(), np.array([0.2, 0.3, 0.4, 0.5])
+    parts = {"mesh and solver": 0.02 * values, "so few windows": 0.1 * values, "the rubber's data": 0.05 * values}
+    draw_parts(panel, PLACES, values, list(parts.values()))
+    outer, middle, inner = bands(panel)
+    for band, share in ((outer, 0.17), (middle, 0.12), (inner, 0.02)):
+        heights = band.get_paths()[0].vertices[:, 1]
+        assert heights.max() == pytest.approx((1.0 + share) * 0.5)
+    handles = part_handles(values, parts)
+    assert [one.get_label() for one in handles] == [
+        "error: mesh and solver,\nat most 2\N{NO-BREAK SPACE}%",
+        "+ so few windows,\nat most 10\N{NO-BREAK SPACE}%",
+        "+ the rubber's data,\nat most 5\N{NO-BREAK SPACE}%",
+    ]
+    # Where bands lie on one another they are as dark as the legend says.
+    clear = np.cumprod([1.0 - (one.get_alpha() or 0.0) for one in (outer, middle, inner)])
+    assert [one.get_alpha() for one in handles][::-1] == pytest.approx(1.0 - clear)
+    assert part_handles(values, {"mesh and solver": 0.02 * values})[0].get_label().startswith("estimated error")
 
 
 def test_upper_edges_are_known_where_errors_are_not() -> None:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
-from rubfric.figures import fig10, style
+from rubfric.figures import fig7, fig10, style
 from rubfric.figures.bands import bands
 from rubfric.figures.totals import WAYS
 
@@ -48,6 +48,27 @@ def test_legend_says_which_road_and_how_good(
     assert "estimated error,\nat most 1.5\N{NO-BREAK SPACE}%" in said
     assert said.count("sum of the scales") == 1
     assert "all scales at once:\nmean of random phases" in words(fig10.draw(make_totals(campaign, drawn=True), [5.0]))
+
+
+def test_bands_of_a_measured_road_and_rubber_are_apart(
+    make_campaign: Maker,
+    make_totals: TableMaker,
+    words: Callable[..., list[str]],
+    overlaps: Callable[[Figure], list[tuple[str, str]]],
+) -> None:
+    table = make_totals(make_campaign(), drawn=True).assign(note="mean of 3 windows of the measured road")
+    table["friction_rubber_error"] = 0.2 * table["friction_direct"]
+    for name in ("friction_total_error", "friction_direct_error"):
+        table[name] += table["friction_rubber_error"]
+    drawn = [fig10.draw(table, [0.5, 5.0]), fig10.draw(table, [5.0]), fig7.draw(make_campaign(), table, 0.75, 5.0)]
+    for figure in drawn:
+        said = words(figure)
+        assert any("the profile itself" in one and one.endswith("mean of 3 windows") for one in said)
+        assert "sum of its sines" in said
+        assert "+ so few windows,\nat most 0.72\N{NO-BREAK SPACE}%" in said
+        assert "+ the rubber's data,\nat most 20\N{NO-BREAK SPACE}%" in said
+        assert overlaps(figure) == []
+    assert {len(bands(panel)) for panel in drawn[0].axes} == {3}
 
 
 def test_refused_speeds_are_crossed(

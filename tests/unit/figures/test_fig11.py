@@ -56,6 +56,29 @@ def test_first_of_random_roads_is_called_so(make_whole: Maker, words: Callable[[
     assert "random" not in note(0)
 
 
+def test_window_of_a_measured_road_has_a_spot_of_some_finest_waves(
+    make_whole: Maker, words: Callable[[Figure], list[str]], overlaps: Callable[..., list[tuple[str, str]]]
+) -> None:
+    results = [make_whole(pressure, speed) for pressure, speed in product((5.0, 0.2), (1.0, 1000.0))]
+    figure = fig11.draw(results, 3, windows=True)
+    strips, spots = panels(figure)
+    period = profile(results[0]).period
+    assert np.ptp(spots[0].get_xlim()) == pytest.approx(0.25 * period)
+    # Two columns take the width of a page.
+    assert strips[0].get_position().width * figure.get_figwidth() > 2.8
+    assert overlaps(figure) == []
+    note = " ".join(words(figure)[-1].split())
+    assert note.startswith(f"The first of 3 windows of the measured road, {period:.3g} mm of it, made periodic, under")
+    assert "random" not in note
+    net = next(lines for lines in spots[0].collections if isinstance(lines, LineCollection))
+    (left, right), (bottom, top) = spots[0].get_xlim(), spots[0].get_ylim()
+    for line in net.get_segments():
+        assert line[:, 0].max() >= left
+        assert line[:, 0].min() <= right
+        assert line[:, 1].max() >= bottom
+        assert line[:, 1].min() <= top
+
+
 def test_spot_is_framed_and_holds_the_highest_crest(make_whole: Maker) -> None:
     result = make_whole()
     ((strip,), (spot,)) = panels(fig11.draw([result]))

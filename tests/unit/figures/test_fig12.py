@@ -72,6 +72,6 @@ def test_other_figures_name_their_temperature(
     campaign = make_campaign()
     plain, warm = (fig7.draw(campaign, make_totals(campaign), 0.75, 0.5) for _ in range(2))
     assert name_temperature(plain, None).get_supxlabel() == ""
-    assert name_temperature(warm, -5.0).get_supxlabel() == "Rubber at -5 °C."
+    assert name_temperature(warm, -5.0).get_supxlabel() == "Rubber at \N{MINUS SIGN}5 °C."
     style.save(warm, tmp_path / "fig7.png")
     assert overlaps(warm) == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -109,3 +110,13 @@ def test_error_of_the_whole_road_says_what_it_covers(result: xr.Dataset) -> None
     lines = summary(whole).splitlines()
     assert lines[0].startswith("zhou2019 on all 2 scales at once, ")
     assert lines[3].split(maxsplit=3)[3].startswith("mesh, solver, kinematics; not other phases of the waves, ")
+
+
+def test_window_of_a_profile_is_no_road_of_scales(result: xr.Dataset) -> None:
+    numbers = 2.0 * np.pi / 40.0 * np.arange(1, 21)
+    window = result.assign_attrs(phase=0.0 * numbers, wavenumber=numbers, amplitude=0.1 / numbers)
+    text = summary(window)
+    assert " on a profile of 40 mm, waves of 2 mm and longer, " in text.splitlines()[0]
+    assert "kinematics; not other stretches of the road," in text
+    bent = window.assign_attrs(wavenumber=numbers * np.linspace(1.0, 1.1, 20))
+    assert " on all 20 scales at once, " in summary(bent).splitlines()[0]

@@ -137,6 +137,8 @@ def test_random_phases_add_their_standard_error(campaign: xr.Dataset) -> None:
     assert row["friction_road_error"] == 0.02
     assert row["friction_total_error"] == pytest.approx(0.023)
     assert row["note"] == "mean of 3 roads with random phases"
+    windows = at(total_table(campaign, whole, road("direct", windows=3)), 1.0, 5.0)
+    assert windows["note"] == "mean of 2 windows of the measured road; 1 more refused: It folds."
     short = at(table, 1.0, 5.0)
     assert short["refused"] == 1
     assert short["note"] == "mean of 2 roads with random phases; 1 more refused: It folds."
@@ -151,6 +153,19 @@ def test_auto_takes_the_way_that_was_found_accurate_enough(campaign: xr.Dataset)
     assert at(table, 1.0, 5.0)["friction_total"] == pytest.approx(0.36)
     assert at(table, 100.0, 5.0)["way"] == "direct"
     assert table["refused"].sum() == 0
+
+
+@pytest.mark.parametrize(
+    ("kinematics", "accuracy", "words"),
+    [("finite", 0.01, "would take minutes"), ("finite", 0.07, "accurate enough"), ("small", 0.07, "accurate enough")],
+)
+def test_note_says_minutes_only_where_the_corrected_sum_is_not_accurate_enough(
+    campaign: xr.Dataset, kinematics: str, accuracy: float, words: str
+) -> None:
+    whole = gathered((0,), np.nan, refusals=json.dumps([[[0.0, 1.0, 5.0, 0.75], NOT_NEEDED + "corrected"]]))
+    row = at(total_table(campaign, whole, road("auto", kinematics=kinematics, accuracy=accuracy)), 1.0, 5.0)
+    assert row["way"] == "corrected"
+    assert words in row["note"]
 
 
 @pytest.mark.parametrize(("accuracy", "way"), [(0.01, "direct"), (0.07, "corrected"), (0.25, "sum")])

@@ -354,7 +354,7 @@ REFUSED: dict[str, tuple[str | bytes, str, str, str | bytes]] = {
     "thousands or decimals": (
         "t (ms);Fn (mN);Ft (mN);x (µm)\n" + "\n".join(";".join(f"{v:,.0f}" for v in row) for row in RUN * 1e3),
         "",
-        "whose comma may part decimals or thousands: write decimal: comma or decimal: point",
+        "whose comma may separate decimals or thousands: write decimal: comma or decimal: point",
         "decimal: point",
     ),
     "another encoding": (

@@ -324,7 +324,7 @@ def test_commas_that_may_part_thousands_are_refused(tmp_path: Path, settings: Se
     path = tmp_path / "run.csv"
     rows = "\n".join(f"{place};1,234;2,345;3,456" for place in range(100))
     path.write_text(f"t (s);Fn (N);Ft (N);x (mm)\n{rows}\n")
-    with pytest.raises(InvalidInput, match="numbers such as '1,234', whose comma may part decimals or thousands"):
+    with pytest.raises(InvalidInput, match="numbers such as '1,234', whose comma may separate decimals or thousands"):
         reduced(str(path), settings)
 
 
@@ -332,7 +332,7 @@ def test_binary_files_folders_and_short_files_are_refused(
     tmp_path: Path, write_file: FileWriter, readings: np.ndarray, settings: Settings
 ) -> None:
     (tmp_path / "run.tdms").write_bytes(b"TDSm\0\0\1\2")
-    with pytest.raises(InvalidInput, match="is no text file: export the record as text"):
+    with pytest.raises(InvalidInput, match="is no text file: export the table as text"):
         reduced(str(tmp_path / "run.tdms"), settings)
     with pytest.raises(InvalidInput, match="is a folder, but must be a file"):
         reduced(str(tmp_path), settings)

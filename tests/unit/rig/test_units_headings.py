@@ -5,39 +5,39 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rubfric.columns.textfile import TextTable
+from rubfric.columns.units import check_factor, factor, split_heading
 from rubfric.errors import InvalidInput
 from rubfric.rig.headings import recognise
-from rubfric.rig.textfile import TextTable
-from rubfric.rig.units import check_factor, factor, split_heading
 
 
 @pytest.mark.parametrize(
-    ("quantity", "unit", "expected"),
+    ("kind", "unit", "expected"),
     [
         ("time", "ms", 1e-3),
         ("time", "S", 1.0),
         ("time", "µs", 1e-6),
         ("time", "μs", 1e-6),
-        ("normal", "kN", 1e3),
-        ("normal", "KN", 1e3),
-        ("traction", "mN", 1e-3),
-        ("traction", "MN", None),
-        ("normal", "kg", 9.80665),
-        ("traction", "g", 9.80665e-3),
-        ("traction", "lbf", 4.4482216152605),
-        ("normal", "Kilonewtons", 1e3),
+        ("force", "kN", 1e3),
+        ("force", "KN", 1e3),
+        ("force", "mN", 1e-3),
+        ("force", "MN", None),
+        ("force", "kg", 9.80665),
+        ("force", "g", 9.80665e-3),
+        ("force", "lbf", 4.4482216152605),
+        ("force", "Kilonewtons", 1e3),
         ("time", "msec.", 1e-3),
-        ("displacement", "millimetres", 1.0),
-        ("displacement", "㎜", 1.0),
-        ("normal", "m", None),
-        ("displacement", "m", 1e3),
-        ("displacement", " mm ", 1.0),
-        ("displacement", "um", 1e-3),
-        ("displacement", "s", None),
+        ("length", "millimetres", 1.0),
+        ("length", "㎜", 1.0),
+        ("force", "m", None),
+        ("length", "m", 1e3),
+        ("length", " mm ", 1.0),
+        ("length", "um", 1e-3),
+        ("length", "s", None),
     ],
 )
-def test_factor_is_that_of_the_unit(quantity: str, unit: str, expected: float | None) -> None:
-    assert factor(quantity, unit) == expected
+def test_factor_is_that_of_the_unit(kind: str, unit: str, expected: float | None) -> None:
+    assert factor(kind, unit) == expected
 
 
 @pytest.mark.parametrize(

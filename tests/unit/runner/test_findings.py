@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from rubfric.runner.findings import findings, highest, verdicts
+from rubfric.runner.findings import findings, highest, told_apart, verdicts
 
 
 @pytest.fixture
@@ -53,6 +53,18 @@ def test_road_without_friction_has_no_largest_error(tables: list[Path]) -> None:
     flat = pd.read_csv(tables[0]).assign(friction_coefficient=0.0)
     flat.to_csv(tables[0], index=False)
     assert findings(tables[:1]) == ["none of 2 scenes carries a warning"]
+
+
+def test_first_comparisons_of_a_ranking_are_said(tmp_path: Path) -> None:
+    path = tmp_path / "ranking.csv"
+    pairs = [("rubbers", "street", "a", f"b{number}") for number in range(7)]
+    columns = ["compared", "on", "first", "second"]
+    pd.DataFrame(pairs, columns=columns).assign(verdict="first grips more").to_csv(path, index=False)
+    lines = findings([path])
+    assert (len(lines), lines[0]) == (6, "a grips more than b0 on street at 1 of 1 points")
+    assert lines[-1] == f"and 2 more comparisons in {path}"
+    assert told_apart(path) == "a grips more than b0 on street at 1 of 1 points; 6 more"
+    assert told_apart(tmp_path / "nowhere.csv") == ""
 
 
 HEAD = "velocity_mm_per_s,pressure_MPa,friction_total,friction_total_error,refused,way\n"

@@ -46,6 +46,15 @@ def test_moduli_are_said_at_each_temperature() -> None:
     assert "64 scenes: 4 scales at 2 speeds and 1 load at 8 temperatures, 16 of the whole road" in lines
 
 
+def test_pairs_are_named_and_counted() -> None:
+    other = {"fine": [{"amplitude": 15e-6, "wavelength": 0.2}]}
+    lines = understood(load({"road": ["zhou2019", "fine"], "roads": other, "grid": {"velocities": [1, 10]}}), own=True)
+    said = "of rubber zhou2019 and roads zhou2019, fine, this is zhou2019 on zhou2019, the first: "
+    assert f"{said}all tables and figures but the comparison are of it; name another first to draw its own" in lines
+    assert "1 other pair: 12 scenes, 12 of the whole road" in lines
+    assert lines[-1].startswith("UNLIKELY: scale 1 of road fine, ")
+
+
 def test_own_campaign_says_what_is_off_and_what_is_unlikely(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(OWN)
     lines = understood(load(CONFIG, tmp_path / "mine.yaml"), own=True)

@@ -13,6 +13,7 @@ from synthetic_campaign import make_totals
 
 from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.pages.explorer.data import payload
+from rubfric.pages.explorer.scenes import SCALARS
 
 CampaignMaker = Callable[..., xr.Dataset]
 ResultMaker = Callable[..., xr.Dataset]
@@ -76,8 +77,8 @@ def test_pictures_are_thinned_where_there_are_many(
     sizes = []
     for room in (400, 3):
         monkeypatch.setattr("rubfric.pages.explorer.data._ROOM", room)
-        monkeypatch.setattr("rubfric.pages.explorer.data._FEWEST", (4, 8))
-        monkeypatch.setattr("rubfric.pages.explorer.data._MOST", (10, 32))
+        monkeypatch.setattr("rubfric.pages.explorer.scenes._FEWEST", (4, 8))
+        monkeypatch.setattr("rubfric.pages.explorer.scenes._MOST", (10, 32))
         campaign = make_campaign()
         scene = payload(campaign, make_totals(campaign), [make_result()], 0.75, "road")["scenes"]["1"][0][1]
         sizes.append((scene["picture"]["rows"], scene["picture"]["columns"]))
@@ -193,6 +194,38 @@ def test_mean_over_random_roads_says_over_how_many(make_campaign: CampaignMaker)
     campaign = make_campaign()
     whole = make_whole(campaign, {}).assign(draws=4)
     assert payload(campaign, make_totals(campaign), [], 0.75, "road", whole)["whole"]["draws"] == 4
+
+
+def test_each_of_several_roads_has_its_scenes_beside_the_mean(
+    make_campaign: CampaignMaker, make_whole_result: ResultMaker
+) -> None:
+    campaign = make_campaign()
+    whole = make_whole(campaign, {})
+    friction = whole["friction_coefficient"]
+    whole["friction_road_error"] = 0.2 * friction
+    whole["draws"] = xr.full_like(friction, 2.0).assign_attrs(long_name="windows of the measured road that were solved")
+    numbers = dict.fromkeys(set(SCALARS) - {"finite_strain", "friction_coefficient"}, 0.5)
+    results = []
+    for number, value in ((1, 0.3), (2, 0.4)):
+        result = make_whole_result(speed=10.0, pressure=0.5).assign(numbers | {"friction_coefficient": value})
+        results.append(result.assign_attrs(road_number=number))
+    bare = make_whole_result(speed=100.0, pressure=5.0).drop_vars(["finite_strain"])
+    results.append(bare.assign_attrs(road_number=2, refusal="all_v100_p5_aspect0.2_stress: it folds"))
+    found = payload(campaign, make_totals(campaign), results, 0.75, "road", whole)
+    mean = friction.sel(scale=0, aspect=0.75, velocity=10.0, pressure=0.5).item()
+    assert found["curves"]["whole"]["error"][0][1] == pytest.approx((0.01 + 0.2) * mean)
+    assert found["scenes"]["whole"][0][1]["error"] == pytest.approx(0.01 * mean)
+    assert [found["scenes"][place][0][1]["friction"] for place in ("whole1", "whole2")] == [0.3, 0.4]
+    assert "picture" in found["scenes"]["whole2"][0][1]
+    assert "picture" not in found["scenes"]["whole"][0][1]
+    roads = found["whole"]["roads"]
+    assert [road["number"] for road in roads] == ["whole1", "whole2"]
+    assert found["whole"]["windows"] is True
+    assert roads[1]["refusals"][1][2] == "it folds"
+    assert roads[0]["refusals"] is None
+    # The finest of two waves of 35 and 87.5 rad/mm; at most a quarter of the period is magnified, at least an eighth.
+    assert roads[0]["spot"] == pytest.approx(0.25 * roads[0]["period"])
+    json.dumps(found, allow_nan=False)
 
 
 def test_result_of_the_whole_road_needs_its_collection(

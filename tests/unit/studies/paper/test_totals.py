@@ -67,6 +67,14 @@ def test_peaks_of_the_whole_road_and_of_the_sum_with_their_whole_errors(grid: xr
     assert doubtful.error == pytest.approx(2.0 * 0.302 / 0.4)
 
 
+def test_measured_profile_is_no_evidence_on_the_sum_of_its_sines(grid: xr.Dataset) -> None:
+    measured = totals().assign(way="direct", note="mean of 3 windows of the measured road")
+    found = total_evidence(measured, grid, 0.05)
+    assert of(found, "the sum is the total") == []
+    assert of(found, "the whole road peaks")
+    assert total_note(measured).startswith("Not judged: the whole road is a measured profile")
+
+
 def test_what_was_refused_is_no_evidence_on_the_sum(grid: xr.Dataset) -> None:
     table = totals(direct=(0.1, np.nan, 0.5), refused=1)
     assert len(of(total_evidence(table, grid, 0.05), "the sum is the total")) == 2

@@ -7,13 +7,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from rubfric.columns.format import SEPARATORS
+from rubfric.columns.heading_rows import MOST_HEADINGS, Row, block, fitting, heading_row, is_number, units
+from rubfric.columns.numerals import is_mark, looks_numeric
 from rubfric.errors import InvalidInput
-from rubfric.rig.format import SEPARATORS
-from rubfric.rig.heading_rows import MOST_HEADINGS, Row, block, fitting, heading_row, is_number, units
-from rubfric.rig.numerals import is_mark, looks_numeric
 
-# Lines by which the layout is recognised, and numbers that a row must have.
-_LOOKED_AT, _FEWEST = 1000, 3
+# Lines by which the layout is recognised, and numbers that a row must have by default.
+_LOOKED_AT, FEWEST = 1000, 3
 # Part of all rows that the one table to read has, unless the user names it.
 _MAIN = 0.9
 
@@ -47,7 +47,12 @@ class Layout:
 
 
 def find_layout(
-    path: str, lines: Sequence[str], names: Sequence[str], separator: str | None = None, heading_line: int | None = None
+    path: str,
+    lines: Sequence[str],
+    names: Sequence[str],
+    separator: str | None = None,
+    heading_line: int | None = None,
+    fewest: int = FEWEST,
 ) -> Layout:
     """Return where the table is.
 
@@ -65,6 +70,8 @@ def find_layout(
         A key of ``SEPARATORS``; the one that gives most numbers by default.
     heading_line : int, optional
         Line of the headings, from 1; found by default.
+    fewest : int
+        Numbers that a row must have.
 
     Raises
     ------
@@ -74,16 +81,17 @@ def find_layout(
     head = lines[: (heading_line or 0) + _LOOKED_AT]
     below = heading_line or 0
     kinds = [separator] if separator else list(SEPARATORS)
-    counts = {kind: _body(split(head[below:], kind)) for kind in kinds}
+    counts = {kind: _body(split(head[below:], kind), fewest) for kind in kinds}
     kind = max(counts, key=lambda one: len(counts[one][0]) * counts[one][1])
     places, many = counts[kind]
     if not many:
         parted = f"{kind}s" if separator else "tabs, semicolons, commas, pipes or blanks"
+        numbers = "numbers" if fewest == 1 else f"at least {fewest} numbers"
         after = f" below line {heading_line}" if heading_line else ""
-        raise InvalidInput(f"{path} has no rows of at least {_FEWEST} numbers{after}, parted by {parted}")
+        raise InvalidInput(f"{path} has no rows of {numbers}{after}, parted by {parted}")
     rows = split(lines, kind)
     tables = _tables(rows, below, places)
-    tops = [heading_row(rows, block(rows, first, below), names) for first, _ in tables]
+    tops = [heading_row(rows, block(rows, first, below, min(2, len(places))), names) for first, _ in tables]
     if heading_line:  # the table ends with the next headings, also where those are repeated
         tables, tops = tables[:1], [heading_line - 1]
     parts, top, notes = _chosen(path, rows, tables, tops)
@@ -92,7 +100,7 @@ def find_layout(
     if top is None:
         return Layout(kind, ("",) * width, ("",) * width, 0, body)
     headings = fitting(path, kind, lines[top], rows[top], (top + 1, body[0][0], width))
-    others = [place for place in block(rows, parts[0][0], below) if place != top]
+    others = [place for place in block(rows, parts[0][0], below, min(2, len(places))) if place != top]
     return Layout(kind, tuple(headings), tuple(units(rows, others, top, len(headings))), top + 1, body, tuple(notes))
 
 
@@ -122,10 +130,10 @@ def split(lines: Sequence[str], kind: str) -> list[Row]:
     return rows
 
 
-def _body(rows: Sequence[Row]) -> tuple[tuple[int, ...], int]:
+def _body(rows: Sequence[Row], fewest: int) -> tuple[tuple[int, ...], int]:
     """Return the columns in which most rows of numbers have numbers, and how many rows are like that."""
     kinds = Counter(tuple(place for place, word in enumerate(row) if is_number(word)) for row in rows)
-    likely = Counter({places: count for places, count in kinds.items() if len(places) >= _FEWEST})
+    likely = Counter({places: count for places, count in kinds.items() if len(places) >= fewest})
     return likely.most_common(1)[0] if likely else ((), 0)
 
 
@@ -141,7 +149,11 @@ def _tables(rows: Sequence[Row], below: int, places: Sequence[int]) -> list[tupl
     found = []
     place = begin + 1
     while place < len(rows):
-        words = len(rows[place]) >= len(places) and all(rows[place]) and not any(map(is_number, rows[place]))
+        words = (
+            len(rows[place]) >= len(places)
+            and all(rows[place])
+            and not any(is_number(one) or is_mark(one) for one in rows[place])
+        )
         after = range(place + 1, min(place + 1 + MOST_HEADINGS, len(rows))) if words else ()
         follow = next((line for line in after if _is_like(rows[line], places)), None)
         if follow is not None:

@@ -7,8 +7,8 @@ import re
 import unicodedata
 from collections.abc import Iterable
 
+from rubfric.columns.units import is_unit
 from rubfric.errors import InvalidInput
-from rubfric.rig.units import is_unit
 
 _MISSING = {"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?", "inf", "-inf", "+inf"}
 _OVERLOADED = {"ol", "ovl", "over", "overload", "ovr", "overflow", "#over", "ovf"}
@@ -104,6 +104,6 @@ def decimal_mark(path: str, words: Iterable[str]) -> str:
         return max(read, key=lambda mark: read[mark])
     shown = next(word for word in marked if "," in word and looks_numeric(word))
     raise InvalidInput(
-        f"{path} has numbers such as {plain(shown)[:40]!r}, whose comma may part decimals or thousands: write decimal: "
-        "comma or decimal: point in the YAML file of --columns"
+        f"{path} has numbers such as {plain(shown)[:40]!r}, whose comma may separate decimals or thousands: write "
+        "decimal: comma or decimal: point in the YAML file of --columns"
     )

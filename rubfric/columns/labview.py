@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from rubfric.arrays import Real
+from rubfric.columns.format import Format
+from rubfric.columns.layout import Layout
+from rubfric.columns.numerals import number
 from rubfric.errors import InvalidInput
-from rubfric.rig.format import Format
-from rubfric.rig.layout import Layout
-from rubfric.rig.numerals import number
 
 _TITLE, _END = "LabVIEW Measurement", "***End_of_Header***"
 _SEPARATORS, _DECIMALS = {"tab": "tab", "comma": "comma"}, {".": "point", ",": "comma"}

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from rubfric.columns.clock import looks_like_clock
+from rubfric.columns.numerals import is_mark, looks_numeric, parted, plain
+from rubfric.columns.units import heading_words, is_unit, split_heading, unit_of
 from rubfric.errors import InvalidInput
-from rubfric.rig.clock import looks_like_clock
-from rubfric.rig.numerals import is_mark, looks_numeric, parted, plain
-from rubfric.rig.units import heading_words, is_unit, split_heading, unit_of
 
 # Lines of headings at most.
 MOST_HEADINGS = 6
@@ -26,7 +26,7 @@ def is_number(word: str) -> bool:
     return looks_numeric(word) or looks_like_clock(word) or parted(word) is not None
 
 
-def block(rows: Sequence[Row], first: int, below: int) -> list[int]:
+def block(rows: Sequence[Row], first: int, below: int, least: int = 2) -> list[int]:
     """Return the lines of words right above the first row of numbers, from the nearest one on.
 
     Parameters
@@ -35,12 +35,14 @@ def block(rows: Sequence[Row], first: int, below: int) -> list[int]:
         Fields of all lines.
     first, below : int
         Where the numbers begin, and the line above which headings cannot be.
+    least : int
+        Fewest fields of a line of headings.
     """
     found: list[int] = []
     for place in range(first - 1, max(below, first - MOST_HEADINGS) - 1, -1):
         if not rows[place]:
             continue
-        if len(rows[place]) < 2 or any(map(is_number, rows[place])):
+        if len(rows[place]) < least or any(map(is_number, rows[place])):
             break
         found.append(place)
     return found

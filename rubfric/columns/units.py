@@ -1,4 +1,4 @@
-"""Units of what a rig records, as loggers write them, in s, N and mm."""
+"""Units of time, force and length as loggers write them, in s, N and mm."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import unicodedata
 from rubfric.checks import shown
 from rubfric.errors import InvalidInput
 
-QUANTITIES = ("time", "normal", "traction", "displacement")
 _POUND, _KILOPOND = 4.4482216152605, 9.80665
 # What a message lists; all other spellings are below.
 _TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0}
 _FORCE = {"N": 1.0, "kN": 1e3, "daN": 10.0, "cN": 1e-2, "mN": 1e-3, "uN": 1e-6}
 _FORCE |= {"kgf": _KILOPOND, "gf": 1e-3 * _KILOPOND, "lbf": _POUND, "ozf": _POUND / 16.0, "dyn": 1e-5}
-_LENGTH = {"mm": 1.0, "m": 1e3, "dm": 100.0, "cm": 10.0, "um": 1e-3, "nm": 1e-6, "in": 25.4, "mil": 0.0254}
-_KNOWN = {"time": _TIME, "normal": _FORCE, "traction": _FORCE, "displacement": _LENGTH}
-EXAMPLES = {"time": "s", "normal": "N", "traction": "N", "displacement": "mm"}
+_LENGTH = {"mm": 1.0, "m": 1e3, "km": 1e6, "dm": 100.0, "cm": 10.0, "um": 1e-3, "nm": 1e-6, "in": 25.4, "mil": 0.0254}
+_KNOWN = {"time": _TIME, "force": _FORCE, "length": _LENGTH}
 _PREFIXES = {"milli": "m", "micro": "u", "nano": "n", "centi": "c", "deci": "d", "deca": "da", "kilo": "k", "": ""}
 _BASES = {"second": "s", "sekunde": "s", "newton": "N", "metre": "m", "meter": "m"}
 _SPELLINGS = {
@@ -51,16 +49,16 @@ _BRACKETED = re.compile(r"\s*[\[({<]\s*([^\[\](){}<>]*?)\s*[\])}>]\s*")
 _APPENDED = re.compile(r"^(?P<name>.*?)\s*(?:/|,|\bin\b|_|\s)\s*(?P<unit>[^\s/,_]+)\s*$")
 
 
-def factor(quantity: str, unit: str) -> float | None:
+def factor(kind: str, unit: str) -> float | None:
     """Return what a number in ``unit`` has to be multiplied by to be in s, N or mm; None for an unknown unit.
 
     Parameters
     ----------
-    quantity : {"time", "normal", "traction", "displacement"}
+    kind : {"time", "force", "length"}
     unit : str
         ``ms``, ``kN``, ``µm``, ``Newtons`` and the like; capitals matter only where they change the meaning.
     """
-    known = _KNOWN[quantity]
+    known = _KNOWN[kind]
     plain = _plain(unit)
     if plain in known:
         return known[plain]
@@ -75,25 +73,25 @@ def _plain(unit: str) -> str:
     return text.strip().strip("[](){}<>").strip().removesuffix(".")
 
 
-def check_factor(key: str, quantity: str, unit: object) -> float:
+def check_factor(key: str, kind: str, unit: object) -> float:
     """Return what a number in a unit has to be multiplied by to be in s, N or mm.
 
     Parameters
     ----------
     key : str
         Where the unit was given, for the message.
-    quantity : {"time", "normal", "traction", "displacement"}
+    kind : {"time", "force", "length"}
     unit : object
         Whatever was given there.
 
     Raises
     ------
     InvalidInput
-        For anything but a known unit of the quantity; names ``key`` and the known units.
+        For anything but a known unit of that kind; names ``key`` and the known units.
     """
-    found = factor(quantity, unit) if isinstance(unit, str) else None
+    found = factor(kind, unit) if isinstance(unit, str) else None
     if found is None:
-        raise InvalidInput(f"{key} is {shown(unit)}, but must be one of {', '.join(_KNOWN[quantity])}")
+        raise InvalidInput(f"{key} is {shown(unit)}, but must be one of {', '.join(_KNOWN[kind])}")
     return found
 
 
@@ -103,8 +101,8 @@ def is_mass(unit: str) -> bool:
 
 
 def is_unit(word: str) -> bool:
-    """Return whether a word is a unit of any of the quantities."""
-    return any(factor(quantity, word) is not None for quantity in QUANTITIES)
+    """Return whether a word is a unit of time, force or length."""
+    return any(factor(kind, word) is not None for kind in _KNOWN)
 
 
 def unit_of(word: str) -> str:

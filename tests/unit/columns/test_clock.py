@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rubfric.columns.clock import clock_times, looks_like_clock
 from rubfric.errors import InvalidInput
-from rubfric.rig.clock import clock_times, looks_like_clock
 
 READ = [
     (["12:03:04", "12:03:04.250", "12:03:04,5"], [43384.0, 43384.25, 43384.5]),

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from rubfric.arrays import Flags, Real
+from rubfric.columns import labview
+from rubfric.columns.clock import clock_times, looks_like_clock
+from rubfric.columns.decoding import decode
+from rubfric.columns.format import AS_FOUND, DECIMALS, Format
+from rubfric.columns.heading_rows import is_number
+from rubfric.columns.layout import FEWEST, Layout, find_layout
+from rubfric.columns.numerals import decimal_mark, looks_numeric, number, parted
 from rubfric.errors import InvalidInput
-from rubfric.rig import labview
-from rubfric.rig.clock import clock_times, looks_like_clock
-from rubfric.rig.decoding import decode
-from rubfric.rig.format import AS_FOUND, DECIMALS, Format
-from rubfric.rig.heading_rows import is_number
-from rubfric.rig.layout import Layout, find_layout
-from rubfric.rig.numerals import decimal_mark, looks_numeric, number, parted
 
 # Rows with an unreadable field: at most so many with words of one form, and at most this share of all rows.
 _ALIKE, _MOST_UNREADABLE = 2, 0.01
@@ -62,7 +62,7 @@ class TextTable:
     line: int = 1
 
 
-def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> TextTable:
+def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = (), fewest: int = FEWEST) -> TextTable:
     """Read a logger's file.
 
     Parameters
@@ -72,6 +72,8 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
         What is not said is found out.
     names : sequence of str
         Headings to be expected, in small letters and without units.
+    fewest : int
+        Numbers that a row must have.
 
     Raises
     ------
@@ -84,7 +86,7 @@ def read_text(path: str, form: Format = AS_FOUND, names: Sequence[str] = ()) -> 
     text, guess = decode(path, form.encoding, names)
     lines = _lines(text)
     form = labview.completed(path, lines, form)
-    layout = labview.named(lines, find_layout(path, lines, names, form.separator, form.headings))
+    layout = labview.named(lines, find_layout(path, lines, names, form.separator, form.headings, fewest))
     top = layout.heading_line or layout.rows[0][0]
     above = tuple(lines[: top - 1])
     rows, units = _rows(layout)

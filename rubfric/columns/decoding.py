@@ -1,4 +1,4 @@
-"""The text of a logger's file, whatever its encoding."""
+"""The text of a file of measured columns, whatever its encoding."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import re
 import unicodedata
 from collections.abc import Sequence
 
+from rubfric.columns import workbook
 from rubfric.errors import InvalidInput
 
 # Longer marks first: that of UTF-32 begins with that of UTF-16.
@@ -28,6 +29,7 @@ _GUESSES = {
     "euc_jp": ("Japanese, EUC", "euc_jp"),
     "cp1251": ("Cyrillic", None),
 }
+_ARCHIVE = b"PK\x03\x04"
 _SYMBOLS = "°µ²³±·×§«»“”„‘’–—…€"
 # Bytes by which the encoding is guessed, and the share of zeros that makes text of two bytes a character.
 _LOOKED_AT, _ZEROS = 100_000, 0.3
@@ -52,7 +54,8 @@ def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, 
     Raises
     ------
     InvalidInput
-        For a folder, a file that is no text, and bytes that have no meaning in the encoding.
+        For a folder, a file that is neither text nor a workbook (.xls, with the extra ``xls``), and bytes that have
+        no meaning in the encoding.
     FileNotFoundError
         For a missing file.
     """
@@ -60,13 +63,16 @@ def decode(path: str, encoding: str | None, words: Sequence[str]) -> tuple[str, 
         raise InvalidInput(f"{path} is a folder, but must be a file of measured values")
     with open(path, "rb") as stream:
         content = stream.read()
+    if content.startswith(workbook.MARK):
+        return workbook.sheet_text(path, content), ""
     known = encoding or next((name for mark, name in _MARKS.items() if content.startswith(mark)), None)
     known = known or _of_two_bytes(content)
     # A logger that lost its power leaves zeros, others an end-of-file mark.
     content = content if known else content.rstrip(b"\0\x1a")
+    sheet = "an Excel file (.xlsx) or an archive" if content.startswith(_ARCHIVE) else ""
     odd = len(content) - len(content.translate(None, _CONTROLS))
-    if known is None and (odd > _MOST_CONTROLS * len(content) or content.startswith(b"PK\3\4")):
-        raise InvalidInput(f"{path} is no text file: export the record as text (CSV)")
+    if known is None and (sheet or odd > _MOST_CONTROLS * len(content)):
+        raise InvalidInput(f"{path} is {sheet or 'no text file'}: export the table as text (CSV)")
     try:
         return content.decode(known or "utf-8").removeprefix("\ufeff"), ""
     except UnicodeDecodeError as error:

@@ -1,0 +1,1 @@
+"""Measured roads: reading, cleaning, spectra, mean profile depth, and periodic windows to slide over."""

@@ -1,0 +1,48 @@
+"""Write the friction of every rubber on every road, and which of two grips more."""
+
+from rubfric.files import mark as leave
+from rubfric.pages.render import write_page
+from rubfric.pages.table import table_page
+from rubfric.results.comparison import comparison_table, headlines, ranking_table
+from rubfric.results.pair import read_pair
+from rubfric.results.tables import write_table
+
+_INTERVALS = (
+    "Intervals are of 95 %. That of a difference adds the squares of its parts: numerics, the coupling of the scales, "
+    "the data of the rubbers, and the road, which for two rubbers on one road is the scatter of their difference from "
+    "window to window. Each verdict is right in 95 % of cases by itself: of a hundred comparisons of equals about five "
+    "find a difference. No error covers what the last column names, nor the finite-strain law."
+)
+
+
+def main(outputs: dict[str, str], pairs: list[tuple[str, str, str, str, list[str]]], mark: str) -> None:
+    """Write both tables, each as CSV and as a page.
+
+    Parameters
+    ----------
+    outputs : dict
+        Paths of ``comparisoncsv``, ``comparisonhtml``, ``rankingcsv`` and ``rankinghtml``.
+    pairs : list
+        Rubber, road, path of the table of its friction, what its scenes are known by, and what its errors leave out.
+    mark : str
+        Path of an empty file whose name represents all scenes; it takes the place of such files beside it.
+    """
+    tables = {(rubber, road): read_pair(path, collected) for rubber, road, path, collected, _ in pairs}
+    without = {(rubber, road): names for rubber, road, *_, names in pairs}
+    compared, ranked = comparison_table(tables, without), ranking_table(tables, without)
+    write_table(compared, outputs["comparisoncsv"])
+    write_table(ranked, outputs["rankingcsv"])
+    words = "Friction of the whole road. The error of a total is the sum of its parts. "
+    page = table_page(compared, "Friction of every rubber on every road", words + _INTERVALS, group="rubber")
+    write_page(page, outputs["comparisonhtml"])
+    said = "; ".join(headlines(ranked.to_dict("records")))
+    details = ["compared", "on", "first", "second", "friction_first", "friction_second", "verdict"]
+    ranked.insert(ranked.columns.get_loc("compared"), "verdict_in_words", ranked.pop("words"))
+    page = table_page(
+        ranked.drop(columns=details),
+        "Which grips more",
+        f"At all speeds and loads: {said}. {_INTERVALS}",
+        group="pressure_MPa",
+    )
+    write_page(page, outputs["rankinghtml"])
+    leave(mark)
