@@ -31,8 +31,9 @@ _NEAR, _SHORTEST = 0.2, 0.05
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
 _LIGHT = 0.1
-# Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds on one wave. A
-# Newton step costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
+# Work after which a scene is given up, in applications of the tangent times cells, in layers those that are worked out:
+# some fifteen seconds on one wave. A Newton step costs as much as so many applications, and each of them as much as the
+# arithmetic of so many cells.
 _MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 1.5e8, 10, 5000
 
 _SPENT = "a scene has only so much work, and this one has had it"
@@ -69,9 +70,9 @@ class AttemptLog:
     def _count(self, problem: SlidingContact, steps: int, krylov: int) -> None:
         self.steps += steps
         self.krylov += krylov
-        block = problem.finite.block
+        rows, columns = problem.finite.shape
         applications = krylov + _PER_STEP * (steps + 1)
-        self.work += applications * (block.columns * block.rows + _PER_APPLICATION)
+        self.work += applications * (rows * columns + _PER_APPLICATION)
 
     def solved(self, problem: SlidingContact, what: str, solved: Solved) -> None:
         """Record a success.
