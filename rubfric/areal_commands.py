@@ -71,7 +71,8 @@ def _scene(campaign: Campaign, options: argparse.Namespace) -> ArealScene:
     warm = None if warm is None else number("temperature", warm)
     entry = campaign.areal_roads.get(options.road)
     numerics = _told({"accuracy": options.accuracy, "nodes_max": options.nodes})
-    given = {"direction": options.direction, "aspect": options.aspect}
+    turned = entry.direction if entry and options.direction is None else options.direction
+    given = {"direction": turned, "aspect": options.aspect}
     return ArealScene(
         _road(campaign, options),
         options.velocity,
@@ -92,7 +93,7 @@ def _road(campaign: Campaign, options: argparse.Namespace) -> ArealRoad:
     if name in roads:
         if options.cut_off is not None:
             raise InvalidInput(f"--cut-off is for areal scans; change that of {name} in the config")
-        return roads[name].road()
+        return roads[name].road(name)
     if not Path(name).is_file():
         listed = f", one of {', '.join(roads)}," if roads else " (it has none)"
         raise InvalidInput(f"--road is {name!r}, but must be an areal road of the config{listed} or the file of a scan")

@@ -224,6 +224,7 @@ class Campaign:
             temperatures=temperatures,
         )
         _ = campaign.whole_roads  # refuses a road without a period
+        gathered(lambda name: campaign.areal_roads[name].road(name), campaign.areal)  # refuses scans that are no road
         return campaign
 
     def scene(
@@ -341,6 +342,11 @@ class Campaign:
             scenes[f"{name}/{scene.name}"] = scene
         return scenes
 
+    def areal_scans(self) -> dict[str, dict[str, Any]]:
+        """Return how each areal road that is a scan is read: arguments of ``rubfric.profile.areal.scanned_road``."""
+        scans = {name: self.areal_roads[name].areal.scan for name in self.areal}
+        return {name: scan.options() for name, scan in scans.items() if scan}
+
     def areal_scene(self, road: str, velocity: float, pressure: float, temperature: float | None = None) -> ArealScene:
         """Return a scene on an areal road.
 
@@ -358,7 +364,8 @@ class Campaign:
         warm = self.figures.temperature if temperature is None else checks.number("temperature", temperature)
         material = self.material if warm is None else rubber_at(self.material, self.shift, warm)
         entry = self.areal_roads[road]
-        return ArealScene(entry.road(), velocity, pressure, material, numerics=entry.numerics, temperature=warm)
+        about: Any = {"direction": entry.direction, "numerics": entry.numerics, "temperature": warm}
+        return ArealScene(entry.road(road), velocity, pressure, material, **about)
 
     def whole_parameters(self) -> dict[str, Any]:
         """Return what the total over the scales depends on besides results, as plain values.

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
 
 from rubfric.config.entries import Entry
 from rubfric.config.fitting import in_config
-from rubfric.config.place import Place
+from rubfric.config.place import Place, digest_of
 from rubfric.errors import InvalidInput
 from rubfric.rules import HERE, Choice, Integer, Items, Number, Rule
 
@@ -21,7 +19,8 @@ if TYPE_CHECKING:  # heavy
     from rubfric.profile.analysis import Analysis
     from rubfric.road.profile import ProfileRoad
 
-_FORMS = ("mean", "tilt", "bow")
+# What may be removed of heights, by the degree of the polynomial.
+FORMS = ("mean", "tilt", "bow")
 # Of a block on a window, in lengths of the window.
 _HEIGHTS = (0.01, 10.0)
 
@@ -78,7 +77,7 @@ class MeasuredRoad(Entry):
     ] = 8.0
     blend: Annotated[float, Number("Share of a window over which its ends are blended.", "", 0.0, 0.5)] = 0.1
     longest_gap: Annotated[float, Number("Gaps up to this length are bridged.", "mm", 0.0, 1e4)] = 5.0
-    form: Annotated[str, Choice("What is subtracted: the mean, tilt, or tilt and bow.", _FORMS)] = "tilt"
+    form: Annotated[str, Choice("What is subtracted: the mean, tilt, or tilt and bow.", FORMS)] = "tilt"
     ends: Annotated[
         str, Choice("Whether flat ends are calibration plates, which are cut off, or road.", ("plates", "road"))
     ] = "plates"
@@ -160,15 +159,7 @@ def surveyed(name: str, entry: MeasuredRoad) -> Survey:
         For a file that is missing or cannot be read, or a profile that holds no such windows.
     """
     key = f"roads.{name}"
-    try:
-        digest = hashlib.sha256(Path(entry.profile).read_bytes()).hexdigest()
-    except OSError as error:
-        missing = isinstance(error, FileNotFoundError)
-        why = "there is no such file" if missing else f"it cannot be read: {error.strerror}"
-        raise InvalidInput(
-            f"{key}.profile is {entry.profile!r}, but {why}; a relative path counts from the folder of the config that "
-            "has it"
-        ) from error
+    digest = digest_of(f"{key}.profile", entry.profile)
     try:
         return _surveyed(name, entry, digest)
     except InvalidInput as error:
@@ -195,7 +186,7 @@ def analysed(entry: MeasuredRoad) -> Analysis:
         entry.direction,
         Format(entry.separator, entry.decimal),
     )
-    cleaned = clean(read(entry.profile, options), entry.longest_gap, _FORMS.index(entry.form), entry.ends == "road")
+    cleaned = clean(read(entry.profile, options), entry.longest_gap, FORMS.index(entry.form), entry.ends == "road")
     return analyse(cleaned, entry.window, entry.cutoff, entry.scales, entry.blend)
 
 

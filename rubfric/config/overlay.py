@@ -23,8 +23,8 @@ EXTRAS = {
     "rig": ("pressures", "speeds"),
     "claims": (),
 }
-# The catalogues whose entries may be files of what was measured, and the key of the file.
-_MEASURED = {"rubbers": "measurements", "roads": "profile"}
+# The catalogues whose entries may be files of what was measured, and the keys that lead to the file.
+_MEASURED = (("rubbers", "measurements"), ("roads", "profile"), ("roads", "areal", "scan", "file"))
 # As many values as a file may hold, what its aliases stand for counted where they stand.
 _MOST_VALUES = 100_000
 # What the YAML reader raises: dates such as 2019-99-99 and tags that do not fit give errors of Python's own.
@@ -55,7 +55,7 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if wrong:
         raise InvalidInput(f"{os.fspath(path)} {wrong}")
-    return _beside(held, Path(path).parent, lambda given, beside, catalogue, key: beside)
+    return _beside(held, Path(path).parent, lambda given, beside, way: beside)
 
 
 def placed(config: Any, paths: Iterable[str | os.PathLike[str]]) -> Any:
@@ -70,9 +70,9 @@ def placed(config: Any, paths: Iterable[str | os.PathLike[str]]) -> Any:
     for path in reversed([*paths]):
         written = read_yaml(path)
 
-        def found(given: str, beside: str, catalogue: str, key: str, written: Any = written) -> str:
-            entries = _catalogue(written, catalogue).values()
-            held = [entry.get(key) for entry in entries if isinstance(entry, Mapping)]
+        def found(given: str, beside: str, way: tuple[str, ...], written: Any = written) -> str:
+            catalogue, *keys = way
+            held = [_at(entry, keys) for entry in _catalogue(written, catalogue).values()]
             return beside if beside in held else given
 
         config = _beside(config, Path(path).parent, found)
@@ -84,16 +84,30 @@ def _catalogue(config: Any, name: str) -> Mapping[str, Any]:
     return entries if isinstance(entries, Mapping) else {}
 
 
-def _beside(config: Any, folder: Path, choose: Callable[[str, str, str, str], str]) -> Any:
+def _beside(config: Any, folder: Path, choose: Callable[[str, str, tuple[str, ...]], str]) -> Any:
     """Return a config in which the files of what was measured are chosen, given as they are and as in a folder."""
-    for catalogue, key in _MEASURED.items():
+    for way in _MEASURED:
+        catalogue, *keys = way
         entries = dict(_catalogue(config, catalogue))
         for name, entry in entries.items():
-            given = entry.get(key) if isinstance(entry, Mapping) else None
+            given = _at(entry, keys)
             if isinstance(given, str) and given and given[0] not in "~$/" and not os.path.isabs(given):
-                entries[name] = {**entry, key: choose(given, _from_here(folder / given), catalogue, key)}
+                entries[name] = _with(entry, keys, choose(given, _from_here(folder / given), way))
         config = {**config, catalogue: entries} if entries else config
     return config
+
+
+def _at(entry: Any, keys: Iterable[str]) -> Any:
+    """Return what some keys lead to, one below the other; None where they lead nowhere."""
+    for key in keys:
+        entry = entry.get(key) if isinstance(entry, Mapping) else None
+    return entry
+
+
+def _with(entry: Mapping[str, Any], keys: list[str], value: str) -> dict[str, Any]:
+    """Return an entry in which some keys lead to another value."""
+    key, *below = keys
+    return {**entry, key: _with(entry[key], below, value) if below else value}
 
 
 def _no_text(error: UnicodeDecodeError) -> str:

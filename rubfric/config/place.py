@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 from rubfric.checks import shown
@@ -46,6 +48,30 @@ class Place(Rule):
     def _schema(self) -> dict[str, Any]:
         kind = ["string", "null"] if self.optional else "string"
         return {"type": kind, "minLength": 1, "maxLength": LONGEST_PATH}
+
+
+def digest_of(key: str, path: str) -> str:
+    """Return the SHA-256 of a file that the config names.
+
+    Parameters
+    ----------
+    key : str
+        That names it.
+    path : str
+
+    Raises
+    ------
+    InvalidInput
+        For a file that is missing or cannot be read.
+    """
+    try:
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    except OSError as error:
+        missing = isinstance(error, FileNotFoundError)
+        why = "there is no such file" if missing else f"it cannot be read: {error.strerror}"
+        raise InvalidInput(
+            f"{key} is {path!r}, but {why}; a relative path counts from the folder of the config that has it"
+        ) from error
 
 
 def _expanded(key: str, value: Any) -> Any:

@@ -35,7 +35,11 @@ def scanned_road(path: str, degree: int = 1, blend: float = BLEND, cut_off: floa
             head = stream.read(_HEAD)
     except OSError as error:
         raise InvalidInput(f"{path} cannot be read: {error.strerror}") from error
+    if not head.strip():
+        raise InvalidInput(f"{path} is empty, but must hold an areal scan")
     scan = read_sdf(path) if is_sdf(head) else read_topography(path)
+    if len(scan.heights) == 1:
+        raise InvalidInput(f"{path} holds a line of {scan.heights.size} heights, but must hold an areal scan")
     try:
         return ScannedRoad.of_heights(scan.heights, scan.spacing, degree=degree, blend=blend, cut_off=cut_off)
     except InvalidInput as error:

@@ -99,6 +99,7 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         *_scales(campaign),
         *_fit(campaign),
         *_survey(campaign),
+        *_scans(campaign),
         *_moduli(campaign),
         _scenes(campaign),
         *_others(campaign),
@@ -129,6 +130,16 @@ def _scales(campaign: Campaign) -> list[str]:
         f"steepest slope {scale.steepest_slope:.3g}"
         for number, scale in enumerate(campaign.road, 1)
     ]
+
+
+def _scans(campaign: Campaign) -> list[str]:
+    """Say which scans are areal roads."""
+    lines = []
+    for name, scan in campaign.areal_scans().items():
+        about = campaign.areal_roads[name].road(name).parameters()
+        heights = f"{about['points']} x {about['lines']} heights, {about['missing']} of them missing and filled"
+        lines.append(f"areal road {name} is {scan['path']}: {heights}")
+    return lines
 
 
 def _survey(campaign: Campaign) -> list[str]:

@@ -19,6 +19,8 @@ from rubfric.rubber.shift import degrees
 from rubfric.rules import Integer, Number, check_fields
 from rubfric.scene.scene import ASPECT
 
+# Fewest nodes along the shortest wave.
+NODES_PER_WAVE = 4
 # Roads that their parameters hold.
 _ROADS: dict[str, type[SelfAffine | ArealWaves]] = {"self_affine": SelfAffine, "waves": ArealWaves}
 
@@ -37,7 +39,7 @@ class ArealNumerics:
         float, Number("Relative accuracy of friction, for which nodes are doubled.", low=1e-4, high=0.5)
     ] = 0.02
     nodes_per_wave: Annotated[
-        int, Integer("Nodes along the shortest wave on the first nodes that may suffice.", 4, 256)
+        int, Integer("Nodes along the shortest wave on the first nodes that may suffice.", NODES_PER_WAVE, 256)
     ] = 8
     nodes_max: Annotated[
         int, Integer("Most nodes along the longer period; a result that needs more says so.", 16, 8192, step=16)
@@ -103,15 +105,31 @@ class ArealScene:
         return plain
 
     @classmethod
-    def from_parameters(cls, parameters: Mapping[str, Any]) -> ArealScene:
-        """Build the scene that ``parameters`` describes; InvalidInput for a road that these do not hold, a scan."""
+    def from_parameters(cls, parameters: Mapping[str, Any], road: ArealRoad | None = None) -> ArealScene:
+        """Build the scene that ``parameters`` describes.
+
+        Parameters
+        ----------
+        parameters : mapping
+            As the method ``parameters`` gives them.
+        road : ArealRoad, optional
+            A road that they do not hold, but name by a digest: a scan.
+
+        Raises
+        ------
+        InvalidInput
+            For a scan that is not given, or is another one.
+        """
         given = dict(parameters)
-        road = dict(given.pop("road"))
-        kind = road.pop("kind")
-        if kind not in _ROADS:
+        held = dict(given.pop("road"))
+        kind = held["kind"]
+        if road is None and kind not in _ROADS:
             raise InvalidInput(f"the road of the parameters is a {kind}, but must be one of {', '.join(_ROADS)}")
+        if road is not None and json.loads(json.dumps(road.parameters())) != held:
+            raise InvalidInput("the areal scan is another than the scene was planned for: run again")
         material, numerics = Material(**given.pop("material")), ArealNumerics(**given.pop("numerics"))
-        return cls(road=_ROADS[kind](**road), material=material, numerics=numerics, **given)
+        road = road or _ROADS[held.pop("kind")](**held)
+        return cls(road=road, material=material, numerics=numerics, **given)
 
     @property
     def digest(self) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -36,10 +37,20 @@ def nodes(most: int, per_wave: int = 8) -> ArealNumerics:
     return ArealNumerics(accuracy=1e-4, nodes_max=most, nodes_per_wave=per_wave)
 
 
-def moved(road: ArealSpectrum, away: tuple[float, float]) -> ScannedRoad:
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """A road of given waves."""
+
+    spectrum: ArealSpectrum
+
+    def parameters(self) -> dict[str, Any]:
+        return {"kind": "moved"}
+
+
+def moved(road: ArealSpectrum, away: tuple[float, float]) -> Moved:
     """Return a road that begins elsewhere."""
     turned = road.amplitudes * np.exp(1j * (road.wavevectors @ np.array(away)))
-    return ScannedRoad(ArealSpectrum(road.periods, road.harmonics, turned), 0, np.zeros(1))
+    return Moved(ArealSpectrum(road.periods, road.harmonics, turned))
 
 
 def mirrored(road: ArealSpectrum) -> ScannedRoad:

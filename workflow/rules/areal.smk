@@ -1,10 +1,17 @@
 # Scenes on areal roads, over the grid of speeds and pressures, and a figure of each road.
 AREAL = CAMPAIGN.areal_scenes()
+# How the scans among the roads are read. Planning has read them: params have digests of their heights.
+SCANS = CAMPAIGN.areal_scans()
 
 
 def areal_file(name):
     """Return where the result of a scene on an areal road belongs."""
     return f"{RESULTS}/areal/{RUBBER}/{name}.nc"
+
+
+def of_scan(name):
+    """Return how the scan of a scene is read, given its name with its road; None on another road."""
+    return SCANS.get(name.split("/")[0])
 
 
 # What a figure shows: of a road at one temperature every scene, by its name.
@@ -28,7 +35,10 @@ if AREAL:
 
     rule areal_scene:
         input:
-            package_files("rubfric.areal_simulation"),
+            lambda wildcards: package_files(
+                "rubfric.areal_simulation",
+                *(["rubfric.road.areal_scan"] if of_scan(wildcards.areal) else []),
+            ),
             script=script_copy("simulate_areal.py"),
         output:
             areal_file("{areal}"),
@@ -45,7 +55,11 @@ if AREAL:
             "{wildcards.areal}"
         run:
             jobs.run(
-                input.script, log[0], output=output[0], parameters=params.parameters
+                input.script,
+                log[0],
+                output=output[0],
+                parameters=params.parameters,
+                scan=of_scan(wildcards.areal),
             )
 
     rule areal_figure:

@@ -3,11 +3,12 @@
 from typing import Any
 
 from rubfric.areal_simulation import simulate_areal
+from rubfric.profile.areal import scanned_road
 from rubfric.results.dataset import write
 from rubfric.scene.areal import ArealScene
 
 
-def main(output: str, parameters: dict[str, Any]) -> None:
+def main(output: str, parameters: dict[str, Any], scan: dict[str, Any] | None = None) -> None:
     """Simulate the scene and write its result.
 
     Parameters
@@ -16,7 +17,10 @@ def main(output: str, parameters: dict[str, Any]) -> None:
         Path of the result (netCDF).
     parameters : dict
         Those of the ``ArealScene``.
+    scan : dict, optional
+        Arguments of ``scanned_road``, where the road is a scan.
     """
-    result = simulate_areal(ArealScene.from_parameters(parameters))
+    road = scanned_road(**scan) if scan else None
+    result = simulate_areal(ArealScene.from_parameters(parameters, road))
     write(result, output)
     print(f"friction coefficient {float(result.friction_coefficient):.5g} +- {float(result.friction_error):.2g}")

@@ -16,10 +16,10 @@ from rubfric.mechanics.areal.contact import ArealContact, solve_contact
 from rubfric.mechanics.areal.surface import TOLERANCE
 from rubfric.mechanics.steady.energies import ROUND_OFF, disagreement
 from rubfric.road.areal import ArealSpectrum
-from rubfric.scene.areal import ArealScene
+from rubfric.scene.areal import NODES_PER_WAVE, ArealScene
 
 # The first nodes are so many along the longer period or fewer; a result has so many along the shortest wave at least.
-_COARSEST, _PER_WAVE = 16, 4
+_COARSEST = 16
 # Fewest nodes in contact that make a prediction.
 _FEWEST = 16
 # What friction from pressures on slopes changed from half as many nodes along each side counts for, and most of its
@@ -194,18 +194,18 @@ def _columns(scene: ArealScene, spectrum: ArealSpectrum) -> tuple[int, int]:
     """Return nodes along the longer period at first and at most, both so many times a power of two."""
     longest, numerics = max(spectrum.periods), scene.numerics
     waves = max((np.abs(spectrum.harmonics) * longest / np.array(spectrum.periods)).max(initial=1.0), 1.0)
-    if _PER_WAVE * waves > numerics.nodes_max:
-        needed = 16 * math.ceil(_PER_WAVE * waves / 16)
-        shortest = _PER_WAVE * longest / numerics.nodes_max
+    if NODES_PER_WAVE * waves > numerics.nodes_max:
+        needed = 16 * math.ceil(NODES_PER_WAVE * waves / 16)
+        shortest = NODES_PER_WAVE * longest / numerics.nodes_max
         raise InvalidInput(
             f"numerics.nodes_max is {numerics.nodes_max}, but must be at least {needed}: the road's shortest wave is "
-            f"{longest / waves:.4g} mm long, and {_PER_WAVE} nodes along it are the fewest; or leave out waves shorter "
-            f"than {shortest:.4g} mm"
+            f"{longest / waves:.4g} mm long, and {NODES_PER_WAVE} nodes along it are the fewest; or leave out waves "
+            f"shorter than {shortest:.4g} mm"
         )
     first = _COARSEST
     while first < numerics.nodes_per_wave * waves and 2 * first <= numerics.nodes_max:
         first *= 2
-    if first < _PER_WAVE * waves:
+    if first < NODES_PER_WAVE * waves:
         first = numerics.nodes_max
     last = first
     while 2 * last <= numerics.nodes_max:
