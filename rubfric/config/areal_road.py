@@ -16,7 +16,7 @@ from rubfric.road.areal import ArealRoad
 from rubfric.road.areal_scan import BLEND, ScannedRoad
 from rubfric.road.areal_waves import ArealWaves
 from rubfric.road.self_affine import SelfAffine
-from rubfric.rules import HERE, Choice, Number, rules
+from rubfric.rules import HERE, Choice, Integer, Number, rules
 from rubfric.scene.areal import NODES_PER_WAVE, ArealNumerics
 
 _KINDS = ("self_affine", "waves", "scan")
@@ -109,6 +109,16 @@ class ArealEntry(Entry):
     direction: Annotated[float, Number("Direction of sliding, degrees from x towards y.", "degrees", -360.0, 360.0)] = (
         0.0
     )
+
+    profiles: Annotated[
+        int,
+        Integer(
+            "Profiles of it along the direction of sliding, if that is 0, 90, 180 or 270 degrees, that the plane model "
+            "slides over to compare; none with 0.",
+            0,
+            1000,
+        ),
+    ] = 16
 
     @property
     def numerics(self) -> ArealNumerics:

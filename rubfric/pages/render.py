@@ -30,11 +30,12 @@ _EXPLORER = (
 )
 # What each page is made of beside its code; scripts in the order in which the browser reads them.
 _ASSETS = {
-    "table": ("page.html", "page.css", "table.html"),
+    "table": ("page.html", "page.css", "table.html", "cells.html"),
     "claims": ("page.html", "page.css", "claims.html"),
     "rubber": ("page.html", "page.css", "rubber.html"),
     "road": ("page.html", "page.css", "road.html"),
     "slide": ("page.html", "page.css", "slide.html"),
+    "areal": ("page.html", "page.css", "areal.html", "cells.html", "areal.css", "areal.js"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
 

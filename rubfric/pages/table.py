@@ -27,13 +27,24 @@ def table_page(table: pd.DataFrame, title: str, words: str, group: str | None = 
     group : str, optional
         A column; a line is drawn where its value changes.
     """
+    return render("table.html", title=title, words=words, **table_cells(table, group))
+
+
+def table_cells(table: pd.DataFrame, group: str | None = None) -> dict[str, Any]:
+    """Return ``headings`` and ``rows`` of a table for a template.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+    group : str, optional
+        A column; a line is drawn where its value changes.
+    """
     groups = table[group].tolist() if group else [None] * len(table)
     rows = [
         {"cells": [_shown(cell) for cell in cells], "begins_group": place > 0 and groups[place] != groups[place - 1]}
         for place, cells in enumerate(table.itertuples(index=False, name=None))
     ]
-    headings = [_heading(str(name)) for name in table.columns]
-    return render("table.html", title=title, words=words, headings=headings, rows=rows)
+    return {"headings": [_heading(str(name)) for name in table.columns], "rows": rows}
 
 
 def _heading(name: str) -> tuple[str, str]:

@@ -136,6 +136,10 @@ class ArealScene:
         """SHA-256 of the parameters, for provenance."""
         return hashlib.sha256(json.dumps(self.parameters(), sort_keys=True).encode()).hexdigest()
 
+    def digest_of_profiles(self, count: int) -> str:
+        """Return what friction on so many profiles of the road, in the plane model, is known by."""
+        return hashlib.sha256(f"{count} profiles of {self.digest}".encode()).hexdigest()
+
     @property
     def name(self) -> str:
         """``areal_v100_p0.3_aspect0.75``, with ``_T20`` for a temperature and a direction other than x."""

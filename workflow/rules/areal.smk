@@ -1,4 +1,5 @@
-# Scenes on areal roads, over the grid of speeds and pressures, and a figure of each road.
+# Scenes on areal roads over the grid of speeds and pressures, what the plane model makes of their profiles, and of each
+# road a table, a page and a figure.
 AREAL = CAMPAIGN.areal_scenes()
 # How the scans among the roads are read. Planning has read them: params have digests of their heights.
 SCANS = CAMPAIGN.areal_scans()
@@ -28,7 +29,29 @@ AREAL_FIGURES = [
     for road in CAMPAIGN.areal
     for kind in ("pdf", "png")
 ]
-AREAL_FILES = [*map(areal_file, AREAL), *AREAL_FIGURES]
+AREAL_TABLES = [
+    f"{RESULTS}/tables/areal_{road}.{kind}"
+    for road in CAMPAIGN.areal
+    for kind in ("csv", "html")
+]
+AREAL_FILES = [*map(areal_file, AREAL), *AREAL_TABLES, *AREAL_FIGURES]
+# How many of a road's profiles the plane model slides over.
+AREAL_PROFILES = {road: CAMPAIGN.areal_roads[road].profiles for road in CAMPAIGN.areal}
+
+
+def profiles_file(name):
+    """Return where the result of the profiles of a scene on an areal road belongs."""
+    return f"{RESULTS}/areal_profiles/{RUBBER}/{name}.nc"
+
+
+def shown_profiles(road):
+    """Return the results of the profiles of all scenes that a figure shows, by name; none where there are none."""
+    count = AREAL_PROFILES[road]
+    return {
+        name: scene.digest_of_profiles(count)
+        for name, scene in AREAL_SHOWN[road].items()
+        if count
+    }
 
 
 if AREAL:
@@ -60,6 +83,83 @@ if AREAL:
                 output=output[0],
                 parameters=params.parameters,
                 scan=of_scan(wildcards.areal),
+            )
+
+    rule areal_profiles:
+        input:
+            lambda wildcards: package_files(
+                "rubfric.areal_plane",
+                *(["rubfric.road.areal_scan"] if of_scan(wildcards.areal) else []),
+            ),
+            script=script_copy("slide_profiles.py"),
+        output:
+            profiles_file("{areal}"),
+        log:
+            f"{RESULTS}/logs/areal_profiles/{RUBBER}/{{areal}}.log",
+        wildcard_constraints:
+            areal=r"[A-Za-z0-9_-]+/areal_v[^/]+",
+        localrule: workflow.remote_exec
+        params:
+            parameters=lambda wildcards: AREAL[wildcards.areal].parameters(),
+            profiles=lambda wildcards: AREAL_PROFILES[wildcards.areal.split("/")[0]],
+            version=rubfric.__version__,
+        message:
+            "profiles of {wildcards.areal}"
+        run:
+            jobs.run(
+                input.script,
+                log[0],
+                output=output[0],
+                parameters=params.parameters,
+                profiles=params.profiles,
+                scan=of_scan(wildcards.areal),
+            )
+
+    rule areal_table:
+        input:
+            package_files("rubfric.pages.areal", "rubfric.results.tables"),
+            page_files("areal"),
+            script=script_copy("tabulate_areal.py"),
+            results=lambda wildcards: [
+                areal_file(name) for name in AREAL_SHOWN[wildcards.road]
+            ],
+            profiles=lambda wildcards: [
+                profiles_file(name) for name in shown_profiles(wildcards.road)
+            ],
+        output:
+            table=report(
+                f"{RESULTS}/tables/areal_{{road}}.csv",
+                caption="../report/areal_table.rst",
+                category=REPORT.tables,
+                labels={"table": "areal road {road}", "as": "spreadsheet (CSV)"},
+            ),
+            page=report(
+                f"{RESULTS}/tables/areal_{{road}}.html",
+                caption="../report/areal_table.rst",
+                category=REPORT.tables,
+                labels={"table": "areal road {road}", "as": "page with contact maps"},
+            ),
+        log:
+            f"{RESULTS}/logs/tables/areal_{{road}}.log",
+        wildcard_constraints:
+            road="|".join(CAMPAIGN.areal),
+        localrule: True
+        params:
+            digests=lambda wildcards: [
+                scene.digest for scene in AREAL_SHOWN[wildcards.road].values()
+            ],
+            profiles=lambda wildcards: [*shown_profiles(wildcards.road).values()],
+        message:
+            "Friction on the areal road {wildcards.road}: {output.table}"
+        run:
+            jobs.run(
+                input.script,
+                log[0],
+                output=output.table,
+                page=output.page,
+                road=wildcards.road,
+                results=dict(zip(input.results, params.digests)),
+                profiles=dict(zip(input.profiles, params.profiles)),
             )
 
     rule areal_figure:

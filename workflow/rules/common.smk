@@ -227,6 +227,7 @@ def made_for_a_config():
         "rubber_fit": RUBBER_FILES,
         "road_read": ROAD_FILES,
         "areal_figure": AREAL_FIGURES,
+        "areal_table": AREAL_TABLES,
         "road_friction": ROAD_FRICTION,
         "road_figure": ROAD_FIGURES,
         "claims": CLAIM_FILES,
@@ -258,6 +259,7 @@ def follow(workflow):
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
                 *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
                 *([f"roads/{ROAD}_friction.html"] if ROAD_FRICTION else []),
+                *(f"tables/areal_{road}.html" for road in CAMPAIGN.areal),
             )
         ],
         dry=lambda: workflow.dryrun,

@@ -74,7 +74,9 @@ def test_every_asset_is_packaged() -> None:
     root = Path(rubfric.__file__).resolve().parents[1]
     patterns = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["rubfric"]
     folder = root / "rubfric"
-    used = {path for name in ("table", "claims", "rubber", "road", "slide", "explorer") for path in assets(name)}
+    used = {
+        path for name in ("table", "claims", "rubber", "road", "slide", "areal", "explorer") for path in assets(name)
+    }
     for path in used:
         assert any(fnmatch(path.relative_to(folder).as_posix(), pattern) for pattern in patterns)
     assert used == {path for path in (folder / "pages").rglob("*.*") if path.suffix in (".js", ".css", ".html")}
