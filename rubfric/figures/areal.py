@@ -1,4 +1,4 @@
-"""Areal roads: where rubber touches the road, slow and fast, light and heavy; friction and contact over speed."""
+"""Areal roads: where rubber touches, slow and fast, light and heavy; friction, contact and pressures beside theory."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from scipy.special import erfinv
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import style
 
-_MAPS_HEIGHT, _CURVES_HEIGHT = 2.1, 2.2
+_HEIGHTS = (2.1, 2.2, 2.2)
+# Bins of pressure in a factor of ten.
+_BINS = 8
 _ROAD, _PRESSURE = "Greys_r", "plasma"
 _LINES = (
     ("friction_coefficient", "persson_friction", "persson_friction_reduced", "friction coefficient (-)"),
@@ -24,7 +27,10 @@ _LINES = (
 
 @style.applied()
 def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> Figure:
-    """Draw contact maps in a row, and below them friction and contact over speed with Persson's theory.
+    """Draw contact maps in a row, and below them curves beside Persson's theory.
+
+    They are friction and contact over speed, and for each map, from which wavelengths friction comes and how pressures
+    are distributed.
 
     Parameters
     ----------
@@ -37,7 +43,8 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
     -------
     matplotlib.figure.Figure
         Heights of the road are grey, the higher the lighter; contact pressures are coloured, on one logarithmic scale.
-        Bars are estimated errors, full lines Persson 2001 and dotted ones Persson 2006.
+        Bars are estimated errors; in the middle full lines are Persson 2001 and dotted ones Persson 2006, at the bottom
+        full lines the simulation and dashed ones Persson 2001.
 
     Raises
     ------
@@ -46,8 +53,8 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
     """
     if not maps or not any(curves):
         raise InvalidInput("a figure of an areal road needs at least one result for a map and one for a curve")
-    figure = Figure(figsize=(style.DOUBLE_COLUMN, _MAPS_HEIGHT + _CURVES_HEIGHT), layout="constrained")
-    upper, lower = np.array(figure.subfigures(2, 1, height_ratios=(_MAPS_HEIGHT, _CURVES_HEIGHT)), dtype=object)
+    figure = Figure(figsize=(style.DOUBLE_COLUMN, sum(_HEIGHTS)), layout="constrained")
+    upper, lower, lowest = np.array(figure.subfigures(3, 1, height_ratios=_HEIGHTS), dtype=object)
     _draw_maps(upper, maps)
     looks = style.lines(len(curves))
     for axes, names in zip(lower.subplots(1, 2), _LINES, strict=True):
@@ -58,7 +65,48 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
         axes.set_xlabel("sliding speed (mm/s)")
         axes.set_ylabel(names[-1])
     axes.legend(title="pressure", loc="best")
+    cut_off, pressures = lowest.subplots(1, 2)
+    for look, result in zip(style.lines(len(maps)), maps, strict=True):
+        _draw_wavelengths(cut_off, result, look["color"])
+        _draw_pressures(pressures, result, look["color"])
+    cut_off.set_xscale("log")
+    cut_off.invert_xaxis()
+    cut_off.set_xlabel("shortest wavelength counted (mm)")
+    cut_off.set_ylim(bottom=0.0)
+    cut_off.set_ylabel("friction over that of all waves (-)")
+    pressures.set_xscale("log")
+    pressures.set_ylim(bottom=0.0)
+    pressures.set_xlabel("contact pressure (MPa)")
+    pressures.set_ylabel("share of contact area\nper unit of its logarithm")
+    cut_off.legend(loc="best")
     return figure
+
+
+def _draw_wavelengths(axes: Axes, result: xr.Dataset, colour: str) -> None:
+    """Draw friction of all wavelengths down to each, over that of all by simulation."""
+    label = f"{float(result.attrs['velocity']):g} mm/s, {float(result.attrs['pressure']):g} MPa"
+    for name, line, known in (("friction_by_wavelength", "-", label), ("persson_friction_by_wavelength", "--", None)):
+        share = np.cumsum(result[name].values) / float(result.friction_coefficient or np.nan)
+        axes.plot(result.wavelength, share, line, color=colour, label=known)
+
+
+def _draw_pressures(axes: Axes, result: xr.Dataset, colour: str) -> None:
+    """Draw how pressures are distributed, by Persson's theory as the difference of two normal distributions."""
+    pressure, nominal = result.contact_pressure.values, float(result.attrs["pressure"])
+    share = float(result.persson_contact_fraction)
+    largest = float(pressure.max())
+    edges = np.geomspace(0.1 * nominal, 1.001 * largest, max(2, round(_BINS * np.log10(10.0 * largest / nominal))) + 1)
+    touching = np.count_nonzero(pressure)
+    count = np.histogram(pressure, edges)[0] / touching / np.diff(np.log(edges))
+    axes.stairs(count, edges, color=colour)
+    if not 0.0 < share < 1.0:
+        return
+    # P(p) = erf(p / sqrt(2 V)), V being the variance of pressure in full contact.
+    width = nominal / erfinv(share)
+    where = np.geomspace(edges[0], max(edges[-1], nominal + 3.0 * width), 200)
+    normal = np.exp(-(((where - nominal) / width) ** 2)) - np.exp(-(((where + nominal) / width) ** 2))
+    density = where * normal / (np.sqrt(np.pi) * width) * pressure.size / touching
+    axes.plot(where, density, "--", color=colour, gid="persson")
 
 
 def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:

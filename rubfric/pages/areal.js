@@ -23,8 +23,9 @@
   const shown = { speed: Math.floor((speeds.length - 1) / 2), load: 0 };
 
   const written = (value, digits = 4) => (value === null || value === undefined ? "" : String(Number(value.toPrecision(digits))));
+  const digits = (error) => Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(error))));
   const within = (value, error) =>
-    value === null || value === undefined ? "" : written(value) + (error === null || error === undefined ? "" : ` ± ${written(error, 2)}`);
+    value === null || value === undefined ? "" : error ? `${value.toFixed(digits(error))} ± ${error.toFixed(digits(error))}` : written(value);
   const percent = (value) => (value === null || value === undefined ? "" : `${written(100 * value, 3)} %`);
 
   function numbers(one) {

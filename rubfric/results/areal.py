@@ -13,9 +13,10 @@ from scipy import fft
 import rubfric
 from rubfric.arrays import Real
 from rubfric.mechanics.areal.steady import ArealSolution
-from rubfric.mechanics.theory.persson_areal import persson_areal
+from rubfric.mechanics.theory.persson_areal import ArealTheory, persson_areal
 from rubfric.results.provenance import CONVENTIONS, SOFTWARE
 from rubfric.results.scalars import attributes
+from rubfric.scene.areal import ArealScene
 
 # Bands of wavelengths in which friction is summed, an octave.
 _BANDS = 4
@@ -75,18 +76,7 @@ def build(solution: ArealSolution, wall_time: float) -> xr.Dataset:
 
 def _scalars(solution: ArealSolution) -> dict[str, tuple[float, str, str]]:
     scene, fine = solution.scene, solution.meshes[-1]
-    theory, later = (
-        persson_areal(
-            scene.material,
-            scene.road.spectrum,
-            scene.velocity,
-            scene.pressure,
-            scene.height,
-            scene.direction,
-            gamma,
-        )
-        for gamma in (1.0, 0.5)
-    )
+    theory, later = _theory(scene, 1.0), _theory(scene, 0.5)
     return {
         "friction_coefficient": (solution.friction_coefficient, "1", "friction coefficient, from what waves dissipate"),
         "friction_error": (solution.friction_error, "1", "estimated error of the friction coefficient, absolute"),
@@ -106,15 +96,26 @@ def _scalars(solution: ArealSolution) -> dict[str, tuple[float, str, str]]:
     }
 
 
+def _theory(scene: ArealScene, gamma: float) -> ArealTheory:
+    about = (scene.velocity, scene.pressure, scene.height, scene.direction)
+    return persson_areal(scene.material, scene.road.spectrum, *about, gamma)
+
+
 def _by_wavelength(solution: ArealSolution) -> dict[str, Any]:
-    """Return what waves of pressure dissipate, in quarters of an octave of their wavelength."""
+    """Return what waves of pressure dissipate, and those of the road by Persson, in quarters of an octave."""
     shape, (lx, ly) = solution.meshes[-1].shape, solution.scene.road.spectrum.periods
     ny, nx = shape
     lost = solution.dissipated()
     kx, ky = np.arange(nx // 2 + 1) / lx, fft.fftfreq(ny, 1.0 / ny) / ly
     number = np.hypot(kx, ky[:, None]).ravel()[1:]  # without the mean
-    band = np.floor(_BANDS * np.log2(number / number.min()) + 0.5).astype(int)
-    total = np.bincount(band, weights=lost.ravel()[1:])
+
+    def by_band(number: Real, friction: Real, least: float, bands: int = 0) -> Real:
+        band = np.floor(_BANDS * np.log2(number / least) + 0.5).astype(int)
+        return np.bincount(band, weights=friction, minlength=bands).astype(float)
+
+    total = by_band(number, lost.ravel()[1:], number.min())
+    theory = _theory(solution.scene, 1.0)
+    persson = by_band(theory.wavenumbers / (2.0 * math.pi), theory.friction, number.min(), len(total))
     length: Real = 2.0 ** (-np.arange(len(total)) / _BANDS) / number.min()
     return {
         "wavelength": (
@@ -123,6 +124,11 @@ def _by_wavelength(solution: ArealSolution) -> dict[str, Any]:
             attributes("mm", "middle of a band of wavelengths, a quarter of an octave"),
         ),
         "friction_by_wavelength": ("wavelength", total, attributes("1", "friction coefficient that the band adds")),
+        "persson_friction_by_wavelength": (
+            "wavelength",
+            persson,
+            attributes("1", "friction coefficient that waves of the road in the band add by Persson 2001, S = 1"),
+        ),
     }
 
 

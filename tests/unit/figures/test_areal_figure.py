@@ -14,14 +14,17 @@ def result(velocity: float, pressure: float, share: float) -> xr.Dataset:
     scalars = {"friction_coefficient": 0.1 * velocity, "friction_error": 0.01, "contact_fraction": share}
     scalars |= {"persson_friction": 0.2, "persson_friction_reduced": 0.1, "persson_contact_fraction": 0.3}
     maps = {"road_height": (("y", "x"), heights), "contact_pressure": (("y", "x"), load)}
-    axes = {"x": np.arange(16) / 16.0, "y": np.arange(8) / 16.0}
+    maps |= {
+        name: ("wavelength", [0.1, 0.2, 0.3]) for name in ("friction_by_wavelength", "persson_friction_by_wavelength")
+    }
+    axes = {"wavelength": [4.0, 2.0, 1.0], "x": np.arange(16) / 16.0, "y": np.arange(8) / 16.0}
     return xr.Dataset(maps | scalars | axes, attrs={"velocity": velocity, "pressure": pressure})
 
 
 def test_maps_have_one_scale_and_curves_are_the_results_in_the_order_of_speeds() -> None:
     slow, fast = result(1.0, 0.3, 0.4), result(2.0, 0.3, 0.1)
     figure = draw([slow, fast], [[fast, slow]])
-    upper, lower = figure.subfigs
+    upper, lower, lowest = figure.subfigs
     shown = [axes for axes in upper.axes if axes.get_title()]
     assert [axes.get_title().split("\n")[0] for axes in shown] == ["1 mm/s, 0.3 MPa", "2 mm/s, 0.3 MPa"]
     images = [axes.images[-1] for axes in shown]
@@ -30,6 +33,16 @@ def test_maps_have_one_scale_and_curves_are_the_results_in_the_order_of_speeds()
     friction, contact = (axes.containers[0].lines[0] for axes in lower.axes)
     np.testing.assert_allclose(np.asarray(friction.get_xydata(), dtype=float), [[1.0, 0.1], [2.0, 0.2]])
     np.testing.assert_allclose(np.asarray(contact.get_ydata(), dtype=float), [0.4, 0.1])
+
+    cut_off, pressures = lowest.axes
+    np.testing.assert_allclose(np.asarray(cut_off.lines[0].get_xydata(), dtype=float), [[4, 1.0], [2, 3.0], [1, 6.0]])
+    values, edges, _ = pressures.patches[0].get_data()
+    assert np.sum(values * np.diff(np.log(edges))) == pytest.approx(1.0)
+    where, density = np.asarray(pressures.lines[0].get_xydata(), dtype=float).T
+    far = np.linspace(where[0], where[-1], 4000)
+    assert np.trapezoid(np.interp(far, where, density) / far, far) == pytest.approx(
+        0.3 / 0.4, rel=0.1
+    )  # the theory's contact
 
 
 def test_figure_of_nothing_is_refused() -> None:

@@ -36,6 +36,10 @@ def test_maps_fit_together_and_friction_is_the_sum_over_wavelengths(result: xr.D
     np.testing.assert_allclose(surface, surface.mean(), atol=1e-12)
     assert np.corrcoef(result.displacement.values[touching], result.road_height.values[touching])[0, 1] > 0.999
     assert float(result.friction_by_wavelength.sum()) == pytest.approx(float(result.friction_coefficient), rel=1e-12)
+    assert float(result.persson_friction_by_wavelength.sum()) == pytest.approx(
+        float(result.persson_friction), rel=1e-12
+    )
+    assert not result.persson_friction_by_wavelength[result.wavelength < 0.11].any()  # finer than the road
     assert result.friction_by_wavelength.values.argmax() < result.wavelength.size - 1
     assert float(result.persson_friction) == pytest.approx(float(result.friction_coefficient), rel=0.4)
     assert all("units" in variable.attrs for variable in result.variables.values())
