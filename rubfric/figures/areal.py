@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
@@ -20,13 +21,21 @@ _HEIGHTS = (2.1, 2.2, 2.2)
 _BINS = 8
 _ROAD, _PRESSURE = "Greys_r", "plasma"
 _LINES = (
-    ("friction_coefficient", "persson_friction", "persson_friction_reduced", "friction coefficient (-)"),
-    ("contact_fraction", "persson_contact_fraction", "", "contact area over nominal (-)"),
+    (
+        "friction_coefficient",
+        "persson_friction",
+        "persson_friction_reduced",
+        "friction_plane",
+        "friction coefficient (-)",
+    ),
+    ("contact_fraction", "persson_contact_fraction", "", "contact_plane", "contact area over nominal (-)"),
 )
 
 
 @style.applied()
-def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> Figure:
+def draw(
+    maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]], table: pd.DataFrame | None = None
+) -> Figure:
     """Draw contact maps in a row, and below them curves beside Persson's theory.
 
     They are friction and contact over speed, and for each map, from which wavelengths friction comes and how pressures
@@ -38,13 +47,15 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
         Results as from ``rubfric.results.areal.build``, one a map, one at least.
     curves : sequence of sequence of xarray.Dataset
         Results of one pressure and several speeds, a sequence for each pressure.
+    table : pandas.DataFrame, optional
+        As from ``rubfric.results.areal_table.areal_table`` of these results: what their profiles came to.
 
     Returns
     -------
     matplotlib.figure.Figure
         Heights of the road are grey, the higher the lighter; contact pressures are coloured, on one logarithmic scale.
-        Bars are estimated errors; in the middle full lines are Persson 2001 and dotted ones Persson 2006, at the bottom
-        full lines the simulation and dashed ones Persson 2001.
+        Bars are estimated errors; in the middle full lines are Persson 2001 and dotted ones Persson 2006, dashed ones
+        the plane model on profiles; at the bottom full lines the simulation and dashed ones Persson 2001.
 
     Raises
     ------
@@ -60,6 +71,9 @@ def draw(maps: Sequence[xr.Dataset], curves: Sequence[Sequence[xr.Dataset]]) -> 
     for axes, names in zip(lower.subplots(1, 2), _LINES, strict=True):
         for look, results in zip(looks, curves, strict=True):
             _draw_curve(axes, sorted(results, key=lambda one: float(one.attrs["velocity"])), names, look)
+            if table is not None and names[3] in table:
+                rows = table[table["pressure_MPa"] == float(results[0].attrs["pressure"])]
+                axes.plot(rows["velocity_mm_per_s"], rows[names[3]], "--", color=look["color"], gid="plane")
         axes.set_xscale("log")
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel("sliding speed (mm/s)")
@@ -132,7 +146,7 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
 
 
 def _draw_curve(axes: Axes, results: Sequence[xr.Dataset], names: tuple[str, ...], look: dict[str, Any]) -> None:
-    main, theory, reduced, _ = names
+    main, theory, reduced, *_ = names
     speeds = [float(one.attrs["velocity"]) for one in results]
 
     def values(name: str) -> list[float]:

@@ -7,6 +7,7 @@ and contact over speed.
 
 from __future__ import annotations
 
+import json
 import os
 
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -15,22 +16,18 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import numpy as np
 import tables
 
+from rubfric.areal_plane import slide_profiles
 from rubfric.areal_simulation import simulate_areal
 from rubfric.config.campaign import load
 from rubfric.figures import areal, style
 from rubfric.markdown import markdown_table
-from rubfric.mechanics.small.steady import solve_small
-from rubfric.mechanics.theory.kinematics import Decision
-from rubfric.road.profile import ProfileRoad
+from rubfric.results.areal_table import areal_table
 from rubfric.road.self_affine import SelfAffine
 from rubfric.scene.areal import ArealNumerics, ArealScene
-from rubfric.scene.numerics import Numerics
-from rubfric.scene.scene import ALL, Scene
 
 HURST, VELOCITIES, PRESSURES = (0.5, 0.8, 1.0), (1.0, 10.0, 100.0, 1000.0, 1e4), (0.3, 1.0)
-# Nodes along a side of the surface, and what of them a profile is sampled at; its shortest wave.
+# Nodes along a side of the surface, its profiles, and its shortest wave.
 SIDE, PROFILES, CUT_OFF = 512, 16, 1.0 / 32
-SMALL = Decision("small", 0.25, "small strain was asked for")
 CURVES = tuple(10.0**power for power in np.arange(-1.0, 4.01, 0.5))
 
 
@@ -45,24 +42,20 @@ def surface(hurst: float, velocity: float, pressure: float) -> ArealScene:
     return ArealScene(road(hurst), velocity, pressure, rubber, numerics=ArealNumerics(nodes_max=SIDE))
 
 
-def profiles(scene: ArealScene) -> list[Scene]:
-    """Return scenes on profiles of the surface, along the direction of sliding."""
-    heights = scene.road.spectrum.heights((SIDE, SIDE))[:: SIDE // PROFILES]
-    found = []
-    for line in heights:
-        profile = ProfileRoad.of_heights(line, 1.0, CUT_OFF)
-        aspect = float(f"{scene.height / profile.wavelength:.6g}")
-        given = {"plane": "strain", "kinematics": "small", "numerics": Numerics(accuracy=0.02)}
-        found.append(Scene(ALL, profile, scene.velocity, scene.pressure, aspect, scene.material, **given))
-    return found
-
-
 def figure() -> None:
     """Draw docs/areal.png."""
     corners = [(velocity, pressure) for velocity in (1.0, 1000.0) for pressure in PRESSURES]
     maps = [simulate_areal(surface(0.8, *corner)) for corner in corners]
     curves = [[simulate_areal(surface(0.8, float(one), pressure)) for one in CURVES] for pressure in PRESSURES]
-    style.save(areal.draw(maps, curves), tables.DOCS / "areal.png")
+    every = [one for each in curves for one in each]
+    beside = areal_table(
+        every,
+        [
+            slide_profiles(ArealScene.from_parameters(json.loads(one.attrs["scene_parameters"])), PROFILES)
+            for one in every
+        ],
+    )
+    style.save(areal.draw(maps, curves, beside), tables.DOCS / "areal.png")
 
 
 def main() -> None:
@@ -88,8 +81,8 @@ def main() -> None:
             for velocity in VELOCITIES:
                 scene = surface(hurst, velocity, pressure)
                 found = simulate_areal(scene)
-                plane = [solve_small(one, SMALL) for one in profiles(scene)]
-                frictions = [one.friction.stress_power for one in plane]
+                plane = slide_profiles(scene, PROFILES)
+                frictions = plane.friction_coefficient.values
                 true, mean = float(found.friction_coefficient), float(np.mean(frictions))
                 scatter = float(np.std(frictions, ddof=1)) / np.sqrt(len(frictions))
                 rows.append(
@@ -103,7 +96,7 @@ def main() -> None:
                         f"{float(found.persson_friction) / true:.2f}",
                         f"{float(found.persson_friction_reduced) / true:.2f}",
                         f"{float(found.contact_fraction):.3f}",
-                        f"{np.mean([one.contact_fraction for one in plane]):.3f}",
+                        f"{float(plane.contact_fraction.mean()):.3f}",
                         f"{float(found.persson_contact_fraction):.3f}",
                     )
                 )

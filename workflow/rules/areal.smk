@@ -166,6 +166,7 @@ if AREAL:
         input:
             package_files("rubfric.figures.areal"),
             script=script_copy("draw_areal.py"),
+            table=rules.areal_table.output.table,
             results=lambda wildcards: [
                 areal_file(name) for name in AREAL_SHOWN[wildcards.road]
             ],
@@ -192,5 +193,6 @@ if AREAL:
                 log[0],
                 results=list(input.results),
                 digests=params.digests,
+                table=input.table,
                 outputs=list(output),
             )

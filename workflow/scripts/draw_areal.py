@@ -5,15 +5,18 @@ from itertools import product
 from rubfric.figures.areal import draw
 from rubfric.figures.style import save
 from rubfric.results.dataset import read
+from rubfric.results.tables import read_table
 
 
-def main(results: list[str], digests: list[str], outputs: list[str]) -> None:
+def main(results: list[str], digests: list[str], table: str, outputs: list[str]) -> None:
     """Draw the figure and save it under every path of ``outputs``.
 
     Parameters
     ----------
     results, digests : list of str
         Paths of the results (netCDF) of one road and one temperature, and the digests that they must have.
+    table : str
+        Path of the table of the road.
     outputs : list of str
         Paths; their endings choose the formats.
     """
@@ -22,4 +25,4 @@ def main(results: list[str], digests: list[str], outputs: list[str]) -> None:
     speeds, loads = (sorted({place[axis] for place in by_place}) for axis in (0, 1))
     corners = product(dict.fromkeys((speeds[0], speeds[-1])), dict.fromkeys((loads[0], loads[-1])))
     curves = [[by_place[speed, load] for speed in speeds] for load in loads]
-    save(draw([by_place[corner] for corner in corners], curves), *outputs)
+    save(draw([by_place[corner] for corner in corners], curves, read_table(table, ["note"])), *outputs)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -23,7 +24,8 @@ def result(velocity: float, pressure: float, share: float) -> xr.Dataset:
 
 def test_maps_have_one_scale_and_curves_are_the_results_in_the_order_of_speeds() -> None:
     slow, fast = result(1.0, 0.3, 0.4), result(2.0, 0.3, 0.1)
-    figure = draw([slow, fast], [[fast, slow]])
+    beside = {"pressure_MPa": 0.3, "velocity_mm_per_s": [1.0, 2.0], "friction_plane": [0.3, 0.4], "contact_plane": 0.5}
+    figure = draw([slow, fast], [[fast, slow]], pd.DataFrame(beside))
     upper, lower, lowest = figure.subfigs
     shown = [axes for axes in upper.axes if axes.get_title()]
     assert [axes.get_title().split("\n")[0] for axes in shown] == ["1 mm/s, 0.3 MPa", "2 mm/s, 0.3 MPa"]
@@ -34,6 +36,8 @@ def test_maps_have_one_scale_and_curves_are_the_results_in_the_order_of_speeds()
     np.testing.assert_allclose(np.asarray(friction.get_xydata(), dtype=float), [[1.0, 0.1], [2.0, 0.2]])
     np.testing.assert_allclose(np.asarray(contact.get_ydata(), dtype=float), [0.4, 0.1])
 
+    plane = [line for axes in lower.axes for line in axes.lines if line.get_gid() == "plane"]
+    np.testing.assert_allclose([line.get_ydata() for line in plane], [[0.3, 0.4], [0.5, 0.5]])
     cut_off, pressures = lowest.axes
     np.testing.assert_allclose(np.asarray(cut_off.lines[0].get_xydata(), dtype=float), [[4, 1.0], [2, 3.0], [1, 6.0]])
     values, edges, _ = pressures.patches[0].get_data()
