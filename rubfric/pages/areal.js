@@ -20,6 +20,7 @@
   map.width = nx;
   map.height = ny;
   map.style.aspectRatio = `${held.periods[0]} / ${held.periods[1]}`;
+  const pen = map.getContext("2d", { willReadFrequently: true }); // pixels are written one by one, none is drawn
   const shown = { speed: Math.floor((speeds.length - 1) / 2), load: 0 };
 
   const written = (value, digits = 4) => (value === null || value === undefined ? "" : String(Number(value.toPrecision(digits))));
@@ -48,7 +49,7 @@
     at("speed").setAttribute("aria-valuetext", `${speed} mm/s`);
     const scene = held.scenes.find((one) => one.velocity === speed && one.load === load);
     scene.level ??= bytes(scene.pressure);
-    const picture = map.getContext("2d").createImageData(nx, ny);
+    const picture = pen.createImageData(nx, ny);
     for (let row = 0; row < ny; row += 1) {
       for (let column = 0; column < nx; column += 1) {
         const from = row * nx + column;
@@ -58,7 +59,7 @@
         picture.data.set(level ? [...colour(level), 255] : [grey, grey, grey, 255], to);
       }
     }
-    map.getContext("2d").putImageData(picture, 0, 0);
+    pen.putImageData(picture, 0, 0);
     map.setAttribute("aria-label", `Contact at ${speed} mm/s and ${load} MPa: ${percent(scene.numbers.contact_fraction)} of the road is touched`);
     const body = at("numbers").tBodies[0];
     body.replaceChildren(

@@ -53,6 +53,9 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
     table = read_table(made / "tables/areal_runway.csv", ["note"])
     assert (table["profiles"] == 16).all()
     assert table["plane_over_surface"].between(0.8, 1.2).all()
+    page = (made / "tables/friction_total.html").read_text(encoding="utf-8")
+    assert "on the areal road runway the plane model on its profiles gives" in page
+    assert "areal road scanned" not in page
     assert "plane_over_surface" not in read_table(made / "tables/areal_scanned.csv", ["note"])
     assert project.plan().jobs == {}
     config.write_text(MINE.replace("hurst: 0.8", "hurst: 0.7"), encoding="utf-8")
@@ -61,6 +64,9 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
         "areal_profiles": 2,
         "areal_table": 1,
         "areal_figure": 1,
+        "total_table": 1,
+        "total_figure": 2,
+        "explorer": 1,
     }
     scan.rename(project.root / "moved.sdf")
     config.write_text(MINE.replace("scan.sdf", "moved.sdf"), encoding="utf-8")

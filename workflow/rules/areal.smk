@@ -131,12 +131,14 @@ if AREAL:
                 f"{RESULTS}/tables/areal_{{road}}.csv",
                 caption="../report/areal_table.rst",
                 category=REPORT.tables,
+                subcategory="areal roads",
                 labels={"table": "areal road {road}", "as": "spreadsheet (CSV)"},
             ),
             page=report(
                 f"{RESULTS}/tables/areal_{{road}}.html",
                 caption="../report/areal_table.rst",
                 category=REPORT.tables,
+                subcategory="areal roads",
                 labels={"table": "areal road {road}", "as": "page with contact maps"},
             ),
         log:

@@ -51,12 +51,16 @@ rule scale_table:
 rule total_table:
     input:
         package_files(
-            "rubfric.results.totals", "rubfric.results.tables", "rubfric.pages.table"
+            "rubfric.results.totals",
+            "rubfric.results.areal_table",
+            "rubfric.results.tables",
+            "rubfric.pages.table",
         ),
         page_files("table"),
         script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
+        areal=[path for path in AREAL_TABLES if path.endswith(".csv")],
     output:
         table=report(
             f"{RESULTS}/tables/friction_total.csv",
@@ -96,6 +100,7 @@ rule total_table:
             collected=params.collected,
             roads=params.roads,
             title=params.title,
+            areal=dict(zip(CAMPAIGN.areal, input.areal)),
         )
 
 

@@ -4,9 +4,10 @@ from typing import Any
 
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
+from rubfric.results.areal_table import plane_words
 from rubfric.results.campaign import read
 from rubfric.results.scales import RUBBER_PART, WAYS
-from rubfric.results.tables import write_table
+from rubfric.results.tables import read_table, write_table
 from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
 
@@ -19,6 +20,7 @@ def main(
     collected: list[str],
     roads: dict[float | None, dict[str, Any]],
     title: str,
+    areal: dict[str, str],
 ) -> None:
     """Write the friction of each scale and of the whole road, by all ways.
 
@@ -36,6 +38,8 @@ def main(
         The parameters of ``WholeRoad`` by temperature, degC; under None for a rubber as it is given.
     title : str
         Of the campaign.
+    areal : dict of str
+        Paths of the tables of areal roads, which say how far the plane model is off, by the names of the roads.
     """
     about = {one: WholeRoad.from_parameters(road) for one, road in roads.items()}
     table = total_tables(read(campaign, collected[0]), read(whole[0], collected[1]) if whole else None, about)
@@ -58,5 +62,8 @@ def main(
         "by how much a model of the interaction of the scales may be off; road, the standard error of the mean over "
         f"{several}; {data} The spreadsheet has the errors of the other ways too."
     )
+    for name, path in areal.items():
+        off = plane_words(read_table(path, ["note"]))
+        words += f" Nor does it cover that roads are no ridges: on the areal road {name} {off}." if off else ""
     shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
     write_page(table_page(shown, f"{title}: all scales", words, group="pressure_MPa"), page)
