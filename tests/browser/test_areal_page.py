@@ -54,4 +54,5 @@ def test_contact_follows_speed_and_pressure(browser: WebDriver, tmp_path: Path) 
         resize(browser, width, 900)
         assert browser.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
     assert console_errors(browser) == []
-    assert outside(requested_addresses(browser)) == []
+    addresses = [one for one in outside(requested_addresses(browser)) if not one.startswith("chrome")]  # its first tab
+    assert addresses == []
