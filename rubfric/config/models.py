@@ -203,9 +203,11 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_road(given: Any) -> str:
-    """Return the tag of a road that is measured, or of a list of scales, as which a single scale is taken too."""
-    single = isinstance(given, Mapping) and set(given) <= set(Scale.model_fields)
-    measured = isinstance(given, (MeasuredRoad, Mapping)) and not single
+    """Return the tag of a road that is measured, by a key of it or one that is misspelt, or of a list of scales."""
+    keys = given if isinstance(given, Mapping) else ()
+    measured = isinstance(given, MeasuredRoad) or any(
+        get_close_matches(str(key), MeasuredRoad.model_fields) for key in keys if key not in Scale.model_fields
+    )
     return f"{HERE}{'measured' if measured else 'scales'}"
 
 

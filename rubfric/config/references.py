@@ -79,8 +79,10 @@ def references(sections: Mapping[str, Any]) -> list[str]:
 
     for name, catalogue in (("rubber", "rubbers"), ("road", "roads"), ("multiscale_preset", "presets")):
         if {name, catalogue} <= set(sections):
-            for place, one in enumerate(names(sections[name])):
-                key = name if one is sections[name] else f"{name}[{place}]"
+            given, keyed = sections[name], [(name, sections[name])]
+            if catalogue != "presets" and isinstance(given, tuple):
+                keyed = [(f"{name}[{place}]", one) for place, one in enumerate(given)]
+            for key, one in keyed:
                 look(Choice(words=sections[catalogue]).check, key, one)
     presets, claims = sections.get("presets"), sections.get("claims")
     if presets and "numerics" in sections:

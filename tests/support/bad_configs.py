@@ -178,6 +178,7 @@ BAD_MODELS = [
     Bad("rubber", "zhou", r"rubber is 'zhou', but must be one of zhou2019 \(did you mean zhou2019\?\)", schema=False),
     Bad("road", "gravel", "road is 'gravel', but must be one of zhou2019$", schema=False),
     Bad("rubber", ["zhou2019", "zhou"], r"rubber\[1\] is 'zhou', but must be .* \(did you mean zhou2", schema=False),
+    Bad("multiscale_preset", [], r"multiscale_preset is \[\], but must be one of draft, standard, reference"),
     Bad("rubber", [], "rubber is empty, but must hold at least one name"),
     Bad("road", ["zhou2019", "zhou2019"], r"road\[1\] is 'zhou2019', the same as road\[0\]; keep one"),
     Bad("road", ["zhou2019", 5], r"road\[1\] is 5, but must be a word of letters"),
