@@ -14,6 +14,7 @@ import yaml
 from rubfric.columns.format import DECIMALS, SEPARATORS, Format
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
+from rubfric.errors import InvalidInput
 from rubfric.files import whole
 from rubfric.outputs import check_output, name_of
 from rubfric.rubber.material import PLANES
@@ -37,8 +38,10 @@ _SLIDE = """\
 examples:
   rubfric road slide street.csv --velocity 1 10 100 1000 --pressure 0.3
   rubfric road slide street.csv --velocity 100 --pressure 0.1 0.3 --cutoff 2 1 0.5 --windows 4 --config tread.yaml
+  rubfric road slide street.csv --velocity 100 --pressure 0.3 --cutoff 1 --window 40 20 80 --block-height 8 4 16
 
-Friction is the mean over the windows, with its standard error beside the numerical one.
+Friction is the mean over the windows, with its standard error beside the numerical one. Of several windows, blends or
+block heights each is varied by itself, the others at their first, over the same stretch of road.
 """
 # The first line of a config that this command writes: such a file may be written anew.
 _OURS = "# Written by rubfric road"
@@ -79,7 +82,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
         epilog=_READ,
         formatter_class=raw,
     )
-    _add_reading(read)
+    _add_reading(read, None)
     read.add_argument("--cutoff", type=float, metavar="X", help="shortest wavelength kept, mm (default: found out)")
     read.add_argument("--scales", type=int, default=4, metavar="N", help="number of sines (default: 4)")
     read.add_argument("--output", "-o", type=Path, metavar="FILE", help="YAML file (default: road_NAME.yaml)")
@@ -91,7 +94,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
         epilog=_SLIDE,
         formatter_class=raw,
     )
-    _add_reading(slide)
+    _add_reading(slide, "+")
     for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
         slide.add_argument(f"--{name}", type=float, nargs="+", required=True, metavar="X", help=what)
     slide.add_argument(
@@ -99,7 +102,9 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
     )
     slide.add_argument("--windows", type=int, metavar="N", help="how many (default: 6, or as many as there are)")
     slide.add_argument("--scales", type=int, metavar="N", help="compare with so many sines (default: none)")
-    slide.add_argument("--block-height", type=float, default=8.0, metavar="X", help="mm (default: 8)")
+    slide.add_argument(
+        "--block-height", type=float, nargs="+", default=[8.0], metavar="X", help="of the block, mm (default: 8)"
+    )
     slide.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     slide.add_argument("--kinematics", choices=KINEMATICS, help="small or finite strain (default: the config's)")
     slide.add_argument("--accuracy", type=float, metavar="A", help="relative accuracy (default: the config's)")
@@ -110,8 +115,8 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
     slide.set_defaults(run=_slide, configs=configs)
 
 
-def _add_reading(command: argparse.ArgumentParser) -> None:
-    """Add the arguments that say how a profile is read, cleaned and cut into windows."""
+def _add_reading(command: argparse.ArgumentParser, several: str | None) -> None:
+    """Add the arguments that say how a profile is read, cleaned and cut into windows, of one or ``several`` kinds."""
     command.add_argument("file", metavar="FILE", help="text (CSV), ISO 25178-71 (.sdf), or an instrument's own format")
     command.add_argument("--unit", metavar="U", help="unit of distances and heights, or both, mm,um say")
     command.add_argument("--spacing", type=float, metavar="X", help="of heights alone, mm")
@@ -134,10 +139,15 @@ def _add_reading(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument("--keep-ends", action="store_true", help="flat ends are road, not plates")
     command.add_argument(
-        "--window", type=float, metavar="X", help="length of a window, mm (default: 40, where it fits)"
+        "--window", type=float, nargs=several, metavar="X", help="length of a window, mm (default: 40, where it fits)"
     )
     command.add_argument(
-        "--blend", type=float, default=0.1, metavar="X", help="share of it that is blended (default: 0.1)"
+        "--blend",
+        type=float,
+        nargs=several,
+        default=[0.1] if several else 0.1,
+        metavar="X",
+        help="share of it that is blended (default: 0.1)",
     )
     command.add_argument("--name", help="name of the road (default: that of the file)")
 
@@ -213,17 +223,23 @@ def _slide(options: argparse.Namespace) -> int:
     _check(options, (*_READING, "cutoff", "velocity", "pressure", "windows", "scales", "block_height", "accuracy"))
     campaign = campaigns.load(*options.configs(options.config or []))
     from rubfric.pages.render import write_page
-    from rubfric.pages.slide import slide_page
+    from rubfric.pages.slide import slide_page, study_page
     from rubfric.profile.analysis import analyse
+    from rubfric.results.road_friction import Block
     from rubfric.results.tables import write_table
-    from rubfric.studies.windows import Block, slide
+    from rubfric.studies.windows import one_by_one, slide, vary
 
-    cutoffs = options.cutoff or [4.0, 2.0, 1.0]
-    found = analyse(_cleaned(options), options.window, min(cutoffs), 1, options.blend)
+    cutoffs, cleaned = options.cutoff or [4.0, 2.0, 1.0], _cleaned(options)
+    found = analyse(cleaned, options.window[0] if options.window else None, min(cutoffs), 1, options.blend[0])
+    choices = one_by_one(options.window or [found.window], options.blend, options.block_height)
+    if options.scales and len(choices) > 1:
+        raise InvalidInput(
+            "--scales is given with several of --window, --blend or --block-height, but sines need one of each"
+        )
     numerics = campaign.numerics
     block = Block(
         campaign.material,
-        options.block_height,
+        choices[0].height,
         options.plane or campaign.plane,
         options.kinematics or campaign.kinematics,
         replace(numerics, accuracy=options.accuracy) if options.accuracy else numerics,
@@ -236,13 +252,20 @@ def _slide(options: argparse.Namespace) -> int:
         f"kinematics, over {windows} windows of {found.window:g} mm of {options.file}"
     )
     print(lead, flush=True)
-    table = slide(
-        *(found, block, options.velocity, options.pressure, cutoffs, windows, options.scales or 0),
-        progress=lambda line: print(line, flush=True),
-    )
+    points = (options.velocity, options.pressure)
+
+    def said(line: str) -> None:
+        print(line, flush=True)
+
+    if len(choices) > 1:
+        table = vary(cleaned, block, *points, min(cutoffs), windows, choices, said)
+        made = study_page(table, name, f"{lead}, and others over the same stretch of road.")
+    else:
+        table = slide(found, block, *points, cutoffs, windows, options.scales or 0, said)
+        made = slide_page(table, name, f"{lead}.")
     write_table(table, output)
     page = output.with_suffix(".html")
-    write_page(slide_page(table, name, f"{lead}."), page)
+    write_page(made, page)
     print(f"\nWritten to {output} and {page}")
     return 0
 

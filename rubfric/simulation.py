@@ -16,12 +16,11 @@ from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.energies import Energies, most_closure
 from rubfric.mechanics.steady.refinement import Solver, refined
-from rubfric.mechanics.steady.resolution import MOST_FINITE, MOST_FINITE_MANY, most_columns
+from rubfric.mechanics.steady.resolution import most_columns
 from rubfric.mechanics.steady.solution import SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision, decide
 from rubfric.mechanics.theory.limits import require_digits, require_height, require_resolvable, require_resolved
 from rubfric.results import dataset
-from rubfric.road.road import finest_waves
 from rubfric.scene.scene import Scene
 
 
@@ -148,8 +147,17 @@ def evaluate(solution: SteadySolution) -> Energies:
 
 
 def finer_mesh(scene: Scene, finite: bool) -> str:
-    """Return how a scene can have a finer mesh than it has had, in words."""
+    """Return how a scene can have a finer mesh than it has had, in words.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    """
     if finite:
-        most = MOST_FINITE_MANY if finest_waves(scene.road) > 1 else MOST_FINITE
-        return f"finite strain has at most {most} columns, small strain (kinematics: small) up to numerics.columns_max"
+        return (
+            f"finite strain has at most {most_columns(scene, True)} columns, small strain (kinematics: small) up to "
+            "numerics.columns_max"
+        )
     return "numerics.columns_max allows for more"

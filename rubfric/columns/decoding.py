@@ -109,11 +109,7 @@ def _guessed(path: str, content: bytes, words: Sequence[str]) -> tuple[str, str]
         )
     wanted = [word.casefold() for word in words if not word.isascii()]
     best = min(texts, key=lambda name: _oddity(name, texts[name][:_LOOKED_AT], wanted))
-    note = (
-        f"read in the encoding {best} ({_GUESSES[best][0]}), which was guessed; encoding in the YAML file of --columns "
-        "names another"
-    )
-    return texts[best], note
+    return texts[best], f"read in the encoding {best} ({_GUESSES[best][0]}), which was guessed"
 
 
 def _oddity(name: str, text: str, wanted: Sequence[str]) -> tuple[int, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +15,7 @@ from rubfric.config.entries import Entry
 from rubfric.config.fitting import in_config
 from rubfric.config.place import Place
 from rubfric.errors import InvalidInput
-from rubfric.rules import HERE, Choice, Integer, Number, Rule
+from rubfric.rules import HERE, Choice, Integer, Items, Number, Rule
 
 if TYPE_CHECKING:  # heavy
     from rubfric.profile.analysis import Analysis
@@ -63,6 +64,15 @@ class MeasuredRoad(Entry):
             999,
         ),
     ] = 0
+    cutoffs: Annotated[
+        tuple[float, ...] | None,
+        Items(
+            "Longer cutoffs down to which its windows are slid over too, at the pressure figures.total_pressure: which "
+            "waves carry friction; without, twice and four times the cutoff, [] for none.",
+            Number(unit="mm"),
+            least=0,
+        ),
+    ] = None
     block_height: Annotated[
         float, Number("Height of the block on a window, which is as wide as that.", "mm", 1e-9, 1e6)
     ] = 8.0
@@ -114,6 +124,10 @@ class Survey:
         Amplitude, mm, and wavenumber, 1/mm, of each sine, from coarse to fine.
     windows : tuple of ProfileRoad
         Those that are slid over in place of the sines.
+    cutoff : float
+        Shortest wavelength kept, mm.
+    coarser : mapping of float to tuple of ProfileRoad
+        The same windows down to longer cutoffs, mm.
     block_height : float
         Of the block on them, mm.
     words : str
@@ -124,6 +138,8 @@ class Survey:
     source: str
     scales: tuple[tuple[float, float], ...]
     windows: tuple[ProfileRoad, ...]
+    cutoff: float
+    coarser: Mapping[float, tuple[ProfileRoad, ...]]
     block_height: float
     words: str
     warnings: tuple[str, ...]
@@ -199,14 +215,31 @@ def _surveyed(name: str, entry: MeasuredRoad, digest: str) -> Survey:
             f"block_height is {entry.block_height:g} mm, but on windows of {found.window:g} mm must be from {low:g} to "
             f"{high:g} mm"
         )
+    numbers = range(1, entry.windows + 1)
     waves = found.sines
     profile = found.cleaned.profile
     kept = f"{found.cleaned.heights.std():.3g} mm rms, wavelengths from {found.cutoff:g} to {found.window:g} mm"
     return Survey(
         entry.profile,
         tuple(zip(waves.amplitudes, waves.wavenumbers, strict=True)),
-        tuple(found.road(number) for number in range(1, entry.windows + 1)),
+        tuple(found.road(number) for number in numbers),
+        found.cutoff,
+        {one: tuple(found.road(number, one) for number in numbers) for one in _coarser(entry, found)},
         entry.block_height,
         f"road {name} is {profile.length:.4g} mm of {entry.profile}: {kept} as {entry.scales} sines",
         tuple(found.warnings()),
     )
+
+
+def _coarser(entry: MeasuredRoad, found: Analysis) -> list[float]:
+    """Return the longer cutoffs of the windows, descending."""
+    longest = 0.5 * found.window
+    if entry.cutoffs is None:
+        return [each for each in (4.0 * found.cutoff, 2.0 * found.cutoff) if each <= longest]
+    wrong = [each for each in entry.cutoffs if not found.cutoff <= each <= longest]
+    if wrong:
+        raise InvalidInput(
+            f"cutoffs has {wrong[0]:g} mm, but each must be from cutoff, {found.cutoff:g} mm, to half of window, "
+            f"{longest:g} mm"
+        )
+    return sorted(set(entry.cutoffs) - {found.cutoff}, reverse=True)

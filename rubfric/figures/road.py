@@ -12,11 +12,14 @@ from matplotlib.figure import Figure
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN, applied
 from rubfric.profile.analysis import Analysis
 from rubfric.profile.depth import SEGMENT, low_passed
+from rubfric.profile.window import window
 
 _HEIGHT = 2.75
 _ROAD, _REMOVED, _MODEL, _PALE = "#332288", "#cc6677", "#117733", "0.9"
 # Points of a profile that are drawn at most: the extremes of stretches of equal length.
 _MOST = 6000
+# Octaves that are named at most.
+_LABELS = 10
 
 
 @applied()
@@ -152,7 +155,8 @@ def _octaves(found: Analysis) -> Figure:
         )
     slope.set(ylabel="rms slope (-)")
     height.set(ylabel="rms height (mm)", xlabel="octave of wavelength, its centre (mm)")
-    height.set_xticks(place, [f"{one.wavelength:g}" for one in found.octaves])
+    every = math.ceil(len(place) / _LABELS)
+    height.set_xticks(place[::every], [f"{one.wavelength:.2g}" for one in found.octaves[::every]])
     _legend(slope)
     return figure
 
@@ -183,7 +187,10 @@ def _window(found: Analysis) -> Figure:
     profile = found.cleaned.profile
     points = round(road.period / profile.spacing)
     place = profile.spacing * np.arange(points)
-    raw = profile.heights[:points] - profile.heights[:points].mean()
+    # Beyond what is blended, both are the profile, but for short waves.
+    raw = profile.heights[:points] - (
+        profile.heights[points - 1] - window(profile, found.window, 1, found.blend)[0][-1]
+    )
     panel.axvspan(0.0, found.blend * road.period, color=_PALE, lw=0.0, zorder=0, label="blended")
     panel.plot(place, raw, "-", color="0.5", lw=0.6, label="profile")
     fine = np.linspace(0.0, road.period, min(4 * points, 8000))

@@ -9,25 +9,26 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from rubfric.figures.bands import draw_band
-from rubfric.figures.style import COLUMN, applied, kinds
+from rubfric.figures.style import DOUBLE_COLUMN, applied, kinds
 
 _HEIGHT = 2.75
+# Contact fractions that differ by more than this factor have a logarithmic axis.
+_DECADES = 20.0
 
 
-@applied()
 def draw(table: pd.DataFrame) -> dict[str, Figure]:
     """Return the figures by name.
 
     Parameters
     ----------
     table : pandas.DataFrame
-        As ``rubfric.studies.windows.slide`` returns it.
+        As ``rubfric.results.road_friction.tabulate`` returns it.
     """
     figures = {}
     if table["velocity_mm_per_s"].nunique() > 1:
-        figures["friction over speed"] = _over_speed(table)
+        figures["friction over speed"] = over_speed(table)
     if table["cutoff_mm"].nunique() > 1:
-        figures["friction over the cutoff"] = _over_cutoff(table)
+        figures["friction over the cutoff"] = over_cutoff(table)
     return figures
 
 
@@ -35,34 +36,63 @@ def _errors(rows: pd.DataFrame) -> Any:
     return np.nan_to_num(rows["friction_road_error"].to_numpy()) + rows["friction_numerical_error"].to_numpy()
 
 
-def _over_speed(table: pd.DataFrame) -> Figure:
+@applied()
+def over_speed(table: pd.DataFrame) -> Figure:
+    """Draw friction and contact over speed with the shortest cutoff, beside Persson's theory and sines.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As ``rubfric.results.road_friction.tabulate`` returns it.
+    """
     direct = table[table["way"] == "direct"]
     finest = direct[direct["cutoff_mm"] == direct["cutoff_mm"].min()]
-    figure = Figure(figsize=(COLUMN, _HEIGHT), layout="constrained")
-    panel = figure.subplots()
+    figure = Figure(figsize=(DOUBLE_COLUMN, 1.15 * _HEIGHT), layout="constrained")
+    panel, share = figure.subplots(1, 2)
     groups = list(finest.groupby("pressure_MPa"))
     for look, (pressure, rows) in zip(kinds(len(groups)), groups, strict=True):
-        speeds, friction = rows["velocity_mm_per_s"].to_numpy(), rows["friction_coefficient"].to_numpy()
-        draw_band(panel, speeds, friction, _errors(rows), look["color"])
-        panel.plot(speeds, friction, lw=0.9, label=f"{pressure:g} MPa", **look)
-        panel.plot(speeds, rows["friction_persson"], ":", lw=0.9, color=look["color"])
-        sines = table[(table["way"] == "sines") & (table["pressure_MPa"] == pressure)]
-        panel.plot(sines["velocity_mm_per_s"], sines["friction_coefficient"], "-.", lw=0.9, color=look["color"])
+        speeds, colour = rows["velocity_mm_per_s"].to_numpy(), look["color"]
+        for axes, name, theory, errors in (
+            (panel, "friction_coefficient", "friction_persson", _errors(rows)),
+            (share, "contact_fraction", "contact_persson", rows["contact_road_error"].to_numpy()),
+        ):
+            values = rows[name].to_numpy()
+            draw_band(axes, speeds, values, errors, colour)
+            axes.plot(speeds, values, lw=0.9, label=f"{pressure:g} MPa", **look)
+            axes.plot(speeds, rows[theory], ":", lw=0.9, color=colour)
+            sines = table[(table["way"] == "sines") & (table["pressure_MPa"] == pressure)]
+            axes.plot(sines["velocity_mm_per_s"], sines[name], "-.", lw=0.9, color=colour)
+    panel.plot([], [], ":", color="0.3", lw=0.9, label="Persson's theory")
     if (table["way"] == "sines").any():
         panel.plot([], [], "-.", color="0.3", lw=0.9, label="sines of the same spectrum")
-    panel.plot([], [], ":", color="0.3", lw=0.9, label="Persson's theory")
-    panel.set(xscale="log", xlabel="sliding speed (mm/s)", ylabel="friction coefficient (-)")
+    for axes, ordinate in ((panel, "friction coefficient (-)"), (share, "contact fraction (-)")):
+        axes.set(xscale="log", xlabel="sliding speed (mm/s)", ylabel=ordinate)
+    contact = finest[["contact_fraction", "contact_persson"]]
+    if contact.max(axis=None) > _DECADES * contact.min(axis=None):
+        share.set_yscale("log")
+    else:
+        share.set_ylim(bottom=0.0)
     panel.set_ylim(bottom=0.0)
     panel.set_title(f"waves of {finest['cutoff_mm'].iloc[0]:g} mm and longer", loc="left")
-    panel.legend(handlelength=1.6)
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", handlelength=1.6, ncols=4)
     return figure
 
 
-def _over_cutoff(table: pd.DataFrame) -> Figure:
-    figure = Figure(figsize=(COLUMN, 1.25 * _HEIGHT), layout="constrained")
+@applied()
+def over_cutoff(table: pd.DataFrame) -> Figure:
+    """Draw friction over the largest wavenumber that is kept, where there are several, and what a model adds.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As ``rubfric.results.road_friction.tabulate`` returns it.
+    """
+    figure = Figure(figsize=(DOUBLE_COLUMN, 1.25 * _HEIGHT), layout="constrained")
     panel = figure.subplots()
     table = table[table["way"].isin(["direct", "persson"])]
-    groups = list(table.groupby(["pressure_MPa", "velocity_mm_per_s"]))
+    places = table.groupby(["pressure_MPa", "velocity_mm_per_s"])
+    groups = [(place, rows) for place, rows in places if (rows["way"] == "direct").sum() > 1] or list(places)
+    table = pd.concat([rows for _, rows in groups])
     for look, ((pressure, speed), rows) in zip(kinds(len(groups)), groups, strict=True):
         waves = 2.0 * np.pi / rows["cutoff_mm"].to_numpy()
         friction, direct = rows["friction_coefficient"].to_numpy(), (rows["way"] == "direct").to_numpy()
@@ -83,7 +113,7 @@ def _over_cutoff(table: pd.DataFrame) -> Figure:
     upper.set_xticks(cutoffs, [f"{one:g}" for one in cutoffs])
     upper.minorticks_off()
     upper.set_xlabel("shortest wavelength kept (mm)")
-    figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", handlelength=1.6, ncols=2)
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside right upper", handlelength=1.6)
     return figure
 
 

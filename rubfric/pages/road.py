@@ -10,6 +10,7 @@ from rubfric.figures.road import draw
 from rubfric.figures.style import png
 from rubfric.pages.render import render, sentence
 from rubfric.profile.analysis import Analysis
+from rubfric.profile.walls import STEEP
 
 _CAPTIONS = {
     "before and after": "The profile as measured, with what was taken out of it, and as it is used.",
@@ -55,7 +56,7 @@ def road_page(found: Analysis, name: str, entry: str) -> str:
         removed=list(found.cleaned.removed),
         rows=list(results(found)),
         octaves=[
-            (f"{one.wavelength:g}", f"{one.height:.3g}", f"{one.slope:.3g}", "yes" if found.is_trusted(one) else "no")
+            (f"{one.wavelength:.3g}", f"{one.height:.3g}", f"{one.slope:.3g}", "yes" if found.is_trusted(one) else "no")
             for one in found.octaves
         ],
         figures=figures,
@@ -78,6 +79,10 @@ def results(found: Analysis) -> Iterator[tuple[str, str]]:
     yield "Root mean square height", f"{rms:.4g} mm"
     yield "Skewness, kurtosis (3 if normal)", f"{skewness:.3g}, {kurtosis:.3g}"
     yield f"Root mean square slope, waves of {shortest:.3g} mm and longer", f"{found.slope:.3g}"
+    if found.walls.count:
+        steep = found.walls
+        words = f"{steep.count}, up to {steep.highest:.3g} mm high, {steep.share:.0%} of the mean square slope"
+        yield f"Walls, steeper than {STEEP:g} from height to height", words
     depth = found.depth
     if math.isfinite(depth.mean):
         scatter = f" ± {depth.scatter:.2g}" if math.isfinite(depth.scatter) else ""

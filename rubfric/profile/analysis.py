@@ -15,6 +15,7 @@ from rubfric.profile.cleaning import Cleaned
 from rubfric.profile.depth import Depth, mean_profile_depth
 from rubfric.profile.scales import Octave, octaves, sines
 from rubfric.profile.spectrum import Spectrum, welch
+from rubfric.profile.walls import STEEP, Walls, walls
 from rubfric.road.profile import ProfileRoad
 from rubfric.road.waves import MOST_WAVES, WaveRoad
 
@@ -22,6 +23,8 @@ from rubfric.road.waves import MOST_WAVES, WaveRoad
 WINDOW = 40.0
 # Digits of a cutoff that is found out; and the part of an octave's ends that has to lie in the trusted band.
 _DIGITS, _NEARLY = 2, 1.1
+# Share of the mean square slope from which on walls are worth a word.
+_MUCH_WALL = 0.2
 # Part of the largest height within which heights are alike.
 _ALIKE = 1e-9
 
@@ -41,6 +44,8 @@ class Analysis:
         The power law in that band.
     depth : Depth
         Mean profile depth; without segments for a profile shorter than 100 mm.
+    walls : Walls
+        Places where heights jump.
     octaves : tuple of Octave
         Root mean square height and slope by band of wavelength.
     window, cutoff, blend : float
@@ -56,6 +61,7 @@ class Analysis:
     band: Band
     hurst: Hurst | None
     depth: Depth
+    walls: Walls
     octaves: tuple[Octave, ...]
     window: float
     cutoff: float
@@ -63,15 +69,17 @@ class Analysis:
     windows: int
     sines: WaveRoad
 
-    def road(self, number: int = 1) -> ProfileRoad:
+    def road(self, number: int = 1, cutoff: float | None = None) -> ProfileRoad:
         """Return a window as a road to slide over.
 
         Parameters
         ----------
         number : int
             Which window, from 1.
+        cutoff : float, optional
+            Shortest wavelength kept, mm, instead of ``cutoff``.
         """
-        return window.road(self.cleaned.profile, self.window, self.cutoff, number, self.blend)
+        return window.road(self.cleaned.profile, self.window, cutoff or self.cutoff, number, self.blend)
 
     def is_trusted(self, octave: Octave) -> bool:
         """Return whether an octave lies in the trusted band with both its ends, or nearly so."""
@@ -103,6 +111,14 @@ class Analysis:
             yield (
                 f"the spectrum goes with q^{-1.0 - 2.0 * self.hurst.exponent:.2g}, which no self-affine road has: "
                 "q^-1 to q^-3"
+            )
+        if self.walls.share > _MUCH_WALL:
+            found = self.walls
+            yield (
+                f"{found.count} places are steeper than {STEEP:g} from one height to the next, walls up to "
+                f"{found.highest:.2g} mm high, and hold {found.share:.0%} of the mean square slope: gaps between "
+                "stones, or errors of the instrument; the shortest waves are theirs, and in finite strain no solution "
+                "may be found where rubber reaches them, which a longer cutoff makes less steep"
             )
         if self.windows < 2:
             yield "the profile holds one window: how friction scatters over the road cannot be told"
@@ -158,6 +174,7 @@ def analyse(
         band,
         hurst(spectrum, band),
         mean_profile_depth(profile.heights, profile.spacing, cleaned.bridged),
+        walls(profile.heights, profile.spacing, cleaned.bridged),
         tuple(octaves(spectrum)),
         length,
         cutoff,

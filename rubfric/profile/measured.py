@@ -73,6 +73,8 @@ class Profile:
         span = float(np.nanmax(self.heights) - np.nanmin(self.heights))
         steps = np.diff(self.heights)
         slope = float(np.sqrt(np.nanmedian(steps**2))) / self.spacing if np.isfinite(steps).any() else 0.0
+        if span > _HIGHEST:
+            self._refuse_marks()
         if span > _HIGHEST or slope > _STEEPEST:
             raise InvalidInput(
                 f"{self.source} has heights that range over {span:.4g} mm, with slopes of {slope:.3g} from point to "
@@ -80,6 +82,17 @@ class Profile:
                 "its heights is probably a smaller one; say both with --unit, as in --unit mm,um"
             )
         return self
+
+    def _refuse_marks(self) -> None:
+        """Refuse one number that stands for missing heights."""
+        known = self.heights[np.isfinite(self.heights)]
+        for mark in (known.min(), known.max()):
+            others = known[known != mark]
+            if len(others) and np.ptp(others) <= _HIGHEST < abs(float(np.median(others)) - mark):
+                raise InvalidInput(
+                    f"{self.source} has the height {mark:.6g} mm at {len(known) - len(others)} points, far from all "
+                    "others: if it marks heights that are missing, leave these fields empty"
+                )
 
 
 def at_distances(source: str, distances: Real, heights: Real, lines: list[int] | None = None) -> Profile:

@@ -83,6 +83,8 @@ def _remedy(solution: SteadySolution) -> str:
         return "lower numerics.first_row"
     if allowance(solution) <= 0.0:
         return "lower numerics.folding"
+    if solution.unsolved:
+        return f"a finer mesh, of {solution.unsolved} columns, has no solution"
     if mesh.columns >= most_columns(scene, finite):
         if mesh.columns < scene.numerics.columns_max:
             return f"finite strain takes no mesh of more than {most_columns(scene, finite)} columns"

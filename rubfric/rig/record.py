@@ -19,6 +19,8 @@ MEASURED, SIMULATED = "measured", "simulated"
 # What the virtual rig writes above the headings of its files.
 SIMULATED_MARK = "virtual rig (simulated)"
 FEWEST_SAMPLES = 50
+# What to do about an encoding that was guessed.
+_ANOTHER = "; encoding in the YAML file of --columns names another"
 # Share of samples that may lack a value, and that may be spikes.
 _MOST_MISSING, _MOST_SPIKES = 0.2, 0.02
 # Stretches of rising time, in samples, that may be runs of their own.
@@ -95,7 +97,8 @@ def read_record(path: str, settings: Settings) -> Record:
     except InvalidInput as error:
         guesses = [note for note in table.notes if "guessed" in note]
         raise InvalidInput(" - ".join([str(error), *guesses])) from error
-    notes = [*table.notes, *left_out, *(note for column in columns.values() for note in column.notes)]
+    read = [f"{note}{_ANOTHER}" if note.endswith("guessed") else note for note in table.notes]
+    notes = [*read, *left_out, *(note for column in columns.values() for note in column.notes)]
     if "normal" in known:
         notes += [f"the column {name!r} is not used: normal gives the load" for name in unused_loads(table, columns)]
     known |= {name: table.values[:, column.place] * column.factor for name, column in columns.items()}

@@ -144,3 +144,13 @@ def verdicts(path: str | os.PathLike[str]) -> str:
     found = [row["verdict"] for row in rows if (row["reading"], row["pressure_MPa"]) == (rows[0]["reading"], "all")]
     counts = {word: found.count(word) for word in dict.fromkeys(sorted(found))}
     return "; ".join(f"{word}: {count} of {len(found)}" for word, count in counts.items())
+
+
+def carrying(path: str | os.PathLike[str]) -> str:
+    """Return in words which waves carry friction, from the table of a measured road; empty for a missing table."""
+    if not _rows(path, "cutoff_mm"):
+        return ""
+    from rubfric.results.carriers import carriers  # heavy: only once there is a table
+    from rubfric.results.tables import read_table
+
+    return carriers(read_table(path, ["way", "note"]))

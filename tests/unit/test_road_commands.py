@@ -9,11 +9,12 @@ import pytest
 
 from rubfric import Scene, load
 from rubfric.cli import main
-from rubfric.errors import NotConverged
+from rubfric.errors import InvalidInput, NotConverged
 from rubfric.profile.analysis import analyse
 from rubfric.profile.cleaning import clean
 from rubfric.profile.reading import read
 from rubfric.profile.virtual import as_measured, self_affine
+from rubfric.results.road_friction import Block
 from rubfric.results.tables import read_table
 from rubfric.studies import windows
 
@@ -95,17 +96,36 @@ def test_sliding_over_windows_gives_friction_with_the_error_of_the_road(
     assert "--windows is 99, but the profile has 10 of 40 mm" in capsys.readouterr().err
 
 
-def test_a_window_that_is_refused_is_counted_and_left_out(street: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_length_blend_and_height_are_varied_one_by_one_over_the_same_stretch(street: str) -> None:
+    given = ["road", "slide", street, "--velocity", "100", "--pressure", "0.3", "--windows", "2", "--cutoff", "4"]
+    few = ["--kinematics", "small", "--window", "40", "20", "--blend", "0.1", "0.3", "--block-height", "8", "16"]
+    assert main([*given, *few]) == 0
+    table = read_table("friction_street.csv", ["way", "note"])
+    names = ["window_mm", "blend", "block_height_mm", "windows"]
+    assert table[names].to_numpy().tolist() == [[40, 0.1, 8, 2], [20, 0.1, 8, 4], [40, 0.3, 8, 2], [40, 0.1, 16, 2]]
+    assert table["friction_coefficient"].nunique() == 4
+    assert "Windows and block on street" in Path("friction_street.html").read_text(encoding="utf-8")
+    # The first row is what the same command without the others gives.
+    assert main([*given, "--kinematics", "small"]) == 0
+    alone = read_table("friction_street.csv", ["way", "note"])
+    assert alone["friction_coefficient"].iloc[0] == pytest.approx(table["friction_coefficient"].iloc[0], rel=1e-5)
+    assert main([*given, *few, "--scales", "2"]) == 2
+
+
+@pytest.mark.parametrize("too_light", [True, False])
+def test_a_window_that_is_refused_is_counted_and_left_out(
+    street: str, monkeypatch: pytest.MonkeyPatch, too_light: bool
+) -> None:
     def refusing(scene: Scene) -> dict[str, float]:
         if scene.road.amplitudes[0] == roads[1].amplitudes[0]:
-            raise NotConverged(scene.name, 3, 0.5, "residual")
+            raise InvalidInput(f"{scene.name} is light") if too_light else NotConverged(scene.name, 3, 0.5, "residual")
         return dict.fromkeys(("friction_coefficient", "friction_coefficient_error", "contact_fraction"), 0.25)
 
     found = analyse(clean(read(street)), cutoff=4.0, scales=1)
     roads = [found.road(number) for number in (1, 2, 3)]
     monkeypatch.setattr(windows, "simulate", refusing)
     campaign = load()
-    block = windows.Block(campaign.material, 8.0, "strain", "small", campaign.numerics)
+    block = Block(campaign.material, 8.0, "strain", "small", campaign.numerics)
     row = windows.slide(found, block, [100.0], [0.3], [4.0], 3).iloc[0]
     assert (row["windows"], row["refused"], row["friction_coefficient"]) == (2, 1, 0.25)
     assert row["note"].startswith("window 2: all_v100_p0.3")

@@ -13,7 +13,7 @@ from rubfric.config.default import PAPER as PAPER_CONFIG
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
 from rubfric.config.pairs import not_covered
-from rubfric.runner.findings import highest, told_apart, verdicts
+from rubfric.runner.findings import carrying, highest, told_apart, verdicts
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.leftovers import remove_leftovers
@@ -64,7 +64,7 @@ REPORT = SimpleNamespace(
 
 wildcard_constraints:
     scene=r"scale\d+_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
-    whole=r"((draw|window)\d+/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
+    whole=r"((cutoff[0-9.e-]+/)?(draw|window)\d+/|sines/)?all_v[0-9.e-]+_p[0-9.e-]+(_T[0-9.e-]+)?_aspect[0-9.e-]+_(stress|strain)",
     rubber=r"[A-Za-z0-9_-]+",
     road=r"[A-Za-z0-9_-]+",
     scale=r"\d+",
@@ -226,6 +226,9 @@ def made_for_a_config():
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
         "road_read": ROAD_FILES,
+        "areal_figure": AREAL_FIGURES,
+        "road_friction": ROAD_FRICTION,
+        "road_figure": ROAD_FIGURES,
         "claims": CLAIM_FILES,
         **({} if WHOLE else {"whole_collection": []}),
     }
@@ -254,6 +257,7 @@ def follow(workflow):
                 "explorer.html",
                 *([f"rubbers/{RUBBER}.html"] if CAMPAIGN.fitted else []),
                 *([f"roads/{ROAD}.html"] if CAMPAIGN.survey else []),
+                *([f"roads/{ROAD}_friction.html"] if ROAD_FRICTION else []),
             )
         ],
         dry=lambda: workflow.dryrun,

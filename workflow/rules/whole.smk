@@ -2,6 +2,8 @@
 # that says why, and the campaign goes on. With random phases every draw has a folder of its own.
 WHOLE_OF = {pair: one.whole_scenes() for pair, one in PAIRS.items()}
 WHOLE = WHOLE_OF[RUBBER, ROAD]
+# With them, of this rubber and road, the windows down to longer cutoffs, and the road's sines under the same block.
+CUTOFF_SCENES = cutoff_scenes(CAMPAIGN)
 # Where a scene of the whole road may not be needed, what decides; and the files of the package behind it.
 CHOOSING = {
     pair: ["rubfric.results.whole_road"] if one.multiscale.way == "auto" else []
@@ -58,9 +60,9 @@ rule whole_scene:
     priority: 5
     localrule: workflow.remote_exec
     params:
-        parameters=lambda wildcards: WHOLE_OF[wildcards.rubber, wildcards.road][
-            wildcards.whole
-        ].parameters(),
+        parameters=lambda wildcards: (
+            WHOLE_OF[wildcards.rubber, wildcards.road] | CUTOFF_SCENES
+        )[wildcards.whole].parameters(),
         road=lambda wildcards: choosing(
             wildcards.rubber, wildcards.road, wildcards.whole
         ),

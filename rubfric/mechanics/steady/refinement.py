@@ -13,7 +13,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from rubfric.errors import InvalidInput
+from rubfric.errors import InvalidInput, NotConverged
 from rubfric.mechanics.steady.error import ORDER, allowance, discretisation_error
 from rubfric.mechanics.steady.resolution import MOST_SMALL_CELLS, Resolution, count_spots, most_columns
 from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
@@ -60,7 +60,8 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
     InvalidInput
         Where rows grow so slowly that a mesh in small strain would have too many cells.
     NotConverged
-        From ``solver``.
+        From ``solver``, on a road of one wave, or on a mesh that the contact needs. On many waves, where a finer one
+        has no solution, that on the last counts.
     """
     meshes: list[OnMesh] = []
     solution = steps_to(scene, solver, meshes)
@@ -80,7 +81,14 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         finer = next(_choices(scene, resolution, factor, solver.finite), None)
         if finer is None:
             break
-        resolution, solution = finer, _solved(scene, solver, finer, meshes)
+        try:
+            resolution, solution = finer, _solved(scene, solver, finer, meshes)
+        except NotConverged:
+            if finest_waves(scene.road) == 1:
+                raise
+            # Of a profile, the friction that there is counts, with its error.
+            solution = dataclasses.replace(solution, unsolved=finer.columns)
+            break
     return dataclasses.replace(solution, meshes=tuple(meshes))
 
 

@@ -15,8 +15,10 @@ from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
 # A mesh is a multiple of this many columns, so that the crest, the trough and both flanks fall on nodes.
 COLUMN_STEP = 8
-# Most columns, and cells, of a mesh in finite strain; most cells in small strain.
+# Most columns, and cells, of a mesh in finite strain; most cells in small strain. Roads of very many waves may have
+# more columns, so many times the fewest that the finest of them needs.
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
+_TIMES_FEWEST = 2
 # On many waves the spots of contact are many and small, and deep rows cost little.
 MOST_FINITE_MANY, MOST_CELLS_MANY = 8192, 750_000
 # Growth of rows below which they count as even.
@@ -191,7 +193,10 @@ def most_columns(scene: Scene, finite: bool) -> int:
         In finite strain.
     """
     most = scene.numerics.columns_max
-    return min(most, MOST_FINITE_MANY if finest_waves(scene.road) > 1 else MOST_FINITE) if finite else most
+    if not finite:
+        return most
+    waves = finest_waves(scene.road)
+    return min(most, max(MOST_FINITE_MANY if waves > 1 else MOST_FINITE, _TIMES_FEWEST * _PER_WAVE_FINITE * waves))
 
 
 def most_cells(scene: Scene, finite: bool) -> int:

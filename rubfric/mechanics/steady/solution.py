@@ -102,6 +102,8 @@ class SteadySolution(ABC):
         What the solver tried, in order, and why it left it.
     meshes : tuple of OnMesh
         Every mesh that the scene was solved on, from coarse to fine; the last is ``block``.
+    unsolved : int
+        Columns of a finer mesh on which no solution was found; 0 where there was none.
     """
 
     scene: Scene
@@ -115,6 +117,7 @@ class SteadySolution(ABC):
     krylov: int = 0
     history: tuple[str, ...] = ()
     meshes: tuple[OnMesh, ...] = ()
+    unsolved: int = 0
 
     @property
     def contact_fraction(self) -> float:

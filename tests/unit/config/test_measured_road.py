@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from rubfric import Scene, load
+from rubfric.config.cutoffs import cutoff_scenes
 from rubfric.config.overlay import placed, read_yaml
 from rubfric.errors import InvalidInput
 from rubfric.results.whole_road import WholeRoad
@@ -82,6 +83,27 @@ def test_windows_of_the_profile_take_the_place_of_the_sines_where_the_whole_road
     assert not any("itself over" in line for line in understood(summed, False))
 
 
+def test_windows_slide_down_to_longer_cutoffs_too_at_one_pressure() -> None:
+    campaign = load(measured(windows=2, cutoff=2, cutoffs=[2, 8]) | {"multiscale": "direct"})
+    scenes, speeds = cutoff_scenes(campaign), campaign.velocities
+    assert len(scenes) == (2 + 1) * len(speeds)
+    assert {scene.pressure for scene in scenes.values()} == {campaign.figures.total_pressure}
+    assert [scene.height for scene in scenes.values()] == pytest.approx([8.0] * len(scenes), rel=1e-5)
+    name, scene = next(iter(scenes.items()))
+    assert name == f"cutoff8/window1/{scene.name}"
+    assert campaign.survey is not None
+    # The same window without its finer waves.
+    assert scene.road.amplitudes == campaign.survey.windows[0].amplitudes[:5]
+    assert [one.road for one in scenes.values()][-1] == campaign.whole_road
+    # By default twice and four times the cutoff, as far as windows are twice as long.
+    for cutoff, found in ((2, [8, 4]), (8, [16]), (15, [])):
+        survey = load(measured(windows=1, cutoff=cutoff)).survey
+        assert survey is not None
+        assert list(survey.coarser) == found
+    for entry in ({"windows": 0}, {"windows": 2}):
+        assert not cutoff_scenes(load(measured(cutoff=2, **entry) | {"multiscale": "sum"}))
+
+
 @pytest.mark.parametrize(
     ("entry", "words"),
     [
@@ -104,6 +126,11 @@ def test_windows_of_the_profile_take_the_place_of_the_sines_where_the_whole_road
         ({"profile": str(STREET), "cutof": 1.0}, r"unknown key 'cutof'; .*\(did you mean cutoff\?\)"),
         ({"profile": str(STREET), "scales": 0}, "roads.street.scales is 0, but must be a whole number of at least 1"),
         ({"profile": str(STREET), "windows": 99}, "roads.street: windows is 99, but the profile has 12 of 40 mm"),
+        (
+            {"profile": str(STREET), "cutoff": 2, "cutoffs": [4, 1]},
+            "roads.street: cutoffs has 1 mm, but each must be from cutoff, 2 mm, to half of window, 20 mm",
+        ),
+        ({"profile": str(STREET), "cutoffs": [4, -1]}, r"roads.street.cutoffs\[1\] is -1 mm"),
         (
             {"profile": str(STREET), "windows": 2, "block_height": 0.001},
             "roads.street: block_height is 0.001 mm, but on windows of 40 mm must be from 0.4 to 400 mm",

@@ -15,7 +15,8 @@ from rubfric.errors import InvalidInput
 from rubfric.profile.reading import Options, read
 from rubfric.profile.sdf import read_sdf
 
-SHARED = Path("/work/shared/data") if Path("/work/shared/data").exists() else Path(__file__).parents[4] / "shared/data"
+# Real files, which may lie beside the project.
+SHARED = Path(__file__).resolve().parents[4] / "shared/data"
 POINTS, SPACING = 200, 0.0375
 DISTANCES = SPACING * np.arange(POINTS)
 HEIGHTS = np.round(0.3 * np.sin(DISTANCES) + 0.05 * np.cos(7.0 * DISTANCES), 6)
@@ -98,6 +99,11 @@ LINES = rows().splitlines()
         ),
         ("distance_m,height_m\n" + rows(), {}, "points 37.5 mm apart"),
         ("distance_mm,height_m\n" + rows(), {}, "the unit of its heights is probably a smaller one"),
+        (
+            HEADED + rows().replace(",\n", ",-9999\n"),
+            {},
+            "has the height -9999 mm at 4 points, far from all others: if it marks heights that are missing",
+        ),
         ("distance,height\n" + rows(), {}, "names no unit for the column 'height' of heights: write it in the heading"),
         ("distance (kg),height (mm)\n" + rows(), {}, "is 'kg', but must be one of mm, m,"),
         (HEADED + rows(), {"unit": ("furlong",)}, "--unit is 'furlong', but must be one of mm, m,"),
@@ -161,6 +167,12 @@ def test_areal_scans_of_iso_25178(content: bytes, tmp_path: Path) -> None:
     path.write_bytes(content[:3000])
     with pytest.raises(InvalidInput, match="cut short"):
         read(str(path))
+
+
+def test_a_guessed_encoding_is_said_without_what_other_commands_have(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    path.write_bytes(("Distanz (mm);Höhe (mm)\n" + rows(";")).encode("cp1252"))
+    assert read(str(path)).notes == ("read in the encoding cp1252 (Western European), which was guessed",)
 
 
 def test_an_instruments_format_needs_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

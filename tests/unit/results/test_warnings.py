@@ -173,6 +173,12 @@ def test_what_would_help_is_told(
     assert solution.block.columns * solution.block.rows <= 9000
 
 
+def test_a_finer_mesh_without_a_solution_is_told() -> None:
+    solution = small(replace(SCENE, numerics=replace(COARSE, accuracy=1e-6)))
+    (line,) = (line for line in warnings(replace(solution, unsolved=4800), 0.0) if "is not met" in line)
+    assert line.endswith("meshes; a finer mesh, of 4800 columns, has no solution.")
+
+
 @pytest.mark.parametrize("solve", [small, finite])
 def test_scene_without_friction_has_no_relative_accuracy(solve: Solve) -> None:
     elastic = Material("elastic", 4.17, 0.49, (), ())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 from synthetic_meshes import FRICTION, Solver, Synthetic, cell_size, power_law
@@ -13,6 +14,7 @@ from rubfric.mechanics.steady.error import allowance, discretisation_error
 from rubfric.mechanics.steady.refinement import refined
 from rubfric.mechanics.steady.resolution import MOST_CELLS, Resolution, most_columns, needed
 from rubfric.mechanics.steady.solution import Friction
+from rubfric.road.waves import WaveRoad
 from rubfric.scene.numerics import Numerics, fineness
 from rubfric.scene.scene import Scene
 
@@ -241,3 +243,20 @@ def test_scene_that_does_not_converge_on_a_mesh_has_no_solution(paper_scene: Sce
     with pytest.raises(NotConverged, match=rf"^{scene.name}: not converged after 7 steps, something is 0\.5$"):
         refined(scene, solver)
     assert len(solver.seen) == at + 1
+
+
+def test_on_many_waves_the_friction_that_there_is_counts_where_a_finer_mesh_has_none(paper_scene: SceneMaker) -> None:
+    waves = WaveRoad((0.015, 0.006), (35.0, 140.0), (0.0, 0.0))
+    scene = replace(paper_scene(100.0, 0.5, numerics=Numerics(**FINE)), scale="all", road=waves)
+    law = power_law(0.05 * 256**0.5 * 10.0, 1.0)
+
+    def failing(resolution: Resolution) -> Friction:
+        if resolution.columns > needed(scene, 1.0, False).columns:
+            raise NotConverged(scene.name, 7, 0.5, "something")
+        return law(resolution)
+
+    solver = Solver(scene, needed(scene, 1.0, False).coarser(scene, False), failing)
+    solution = refined(scene, solver)
+    assert [mesh.columns for mesh in solution.meshes] == columns_of(solver)[:-1]
+    assert solution.unsolved == columns_of(solver)[-1] > solution.meshes[-1].columns
+    assert discretisation_error(solution.meshes) > allowance(solution)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.refinement import refined
 from rubfric.mechanics.steady.resolution import COLUMN_STEP, Resolution, fit, most_columns, needed
 from rubfric.mechanics.theory.kinematics import Decision
+from rubfric.road.waves import WaveRoad
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import COLUMNS_PER_HEIGHT, Scene
 
@@ -74,6 +76,10 @@ def test_columns_have_a_bound(paper_scene: SceneMaker, finite: bool) -> None:
 def test_finite_strain_has_a_bound_of_its_own(scene: Scene) -> None:
     assert most_columns(scene, False) == 32768
     assert most_columns(scene, True) == fit(scene, 1e9, True) < 32768
+    # Twice 24 for the finest wave, of a window with 200 of them.
+    window = replace(scene, scale="all", road=WaveRoad((0.1, 1e-3), (np.pi / 20.0, 10.0 * np.pi), (0.0, 0.0)))
+    assert most_columns(window, True) == 9600
+    assert needed(window, 1.0, True).columns == 4800
 
 
 @KINDS
