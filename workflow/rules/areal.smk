@@ -2,11 +2,6 @@
 AREAL = CAMPAIGN.areal_scenes()
 
 
-def areal_file(name):
-    """Return where the result of a scene on an areal road belongs."""
-    return f"{RESULTS}/areal/{RUBBER}/{name}.nc"
-
-
 # What a figure shows: of a road at one temperature every scene, by its name.
 AREAL_SHOWN = {
     road: {
