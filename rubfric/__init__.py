@@ -16,13 +16,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
+    from rubfric.areal_simulation import simulate_areal
     from rubfric.config.campaign import Campaign, load
     from rubfric.errors import BrokenResult, InvalidInput, NotConverged, NotWritten, RubfricError
     from rubfric.marching import march
     from rubfric.results.dataset import write
+    from rubfric.road.areal_scan import ScannedRoad
+    from rubfric.road.areal_waves import ArealWaves
+    from rubfric.road.self_affine import SelfAffine
     from rubfric.road.sine import SineScale
     from rubfric.road.waves import WaveRoad
     from rubfric.rubber.material import Material
+    from rubfric.scene.areal import ArealNumerics, ArealScene
     from rubfric.scene.numerics import Numerics
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
@@ -31,6 +36,9 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
 __version__ = "0.1.0"
 
 _HOMES = {
+    "ArealNumerics": "scene.areal",
+    "ArealScene": "scene.areal",
+    "ArealWaves": "road.areal_waves",
     "BrokenResult": "errors",
     "Campaign": "config.campaign",
     "InvalidInput": "errors",
@@ -41,15 +49,21 @@ _HOMES = {
     "RubfricError": "errors",
     "Scene": "scene.scene",
     "Procedure": "scene.procedure",
+    "ScannedRoad": "road.areal_scan",
+    "SelfAffine": "road.self_affine",
     "SineScale": "road.sine",
     "WaveRoad": "road.waves",
     "load": "config.campaign",
     "march": "marching",
     "simulate": "simulation",
+    "simulate_areal": "areal_simulation",
     "write": "results.dataset",
 }
 
 __all__ = [
+    "ArealNumerics",
+    "ArealScene",
+    "ArealWaves",
     "BrokenResult",
     "Campaign",
     "InvalidInput",
@@ -59,13 +73,16 @@ __all__ = [
     "Numerics",
     "Procedure",
     "RubfricError",
+    "ScannedRoad",
     "Scene",
+    "SelfAffine",
     "SineScale",
     "WaveRoad",
     "__version__",
     "load",
     "march",
     "simulate",
+    "simulate_areal",
     "write",
 ]
 

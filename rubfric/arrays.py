@@ -11,3 +11,8 @@ Real: TypeAlias = NDArray[np.floating[Any]]
 Complex: TypeAlias = NDArray[np.complex128]
 Whole: TypeAlias = NDArray[np.integer[Any]]
 Flags: TypeAlias = NDArray[np.bool_]
+
+
+def single(array: Any) -> Any:
+    """Return a real or complex array in single precision."""
+    return array.astype(np.complex64 if np.iscomplexobj(array) else np.float32)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import rubfric
+from rubfric.areal_commands import add_areal, slide
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
@@ -28,6 +29,7 @@ example:
   rubfric simulate --scale 4 --velocity 1000 --pressure 0.5 --plane strain --output scene.nc
   rubfric simulate --scale 1 --velocity 100 --pressure 5 --temperature 60 --config mine.yaml
   rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
+  rubfric simulate --road runway --velocity 100 --pressure 0.3 --config mine.yaml --output areal.nc
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
   rubfric init mine.yaml
 
@@ -84,7 +86,8 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    _add_scene(simulate)
+    _add_scene(simulate, required=False)
+    add_areal(simulate)
     simulate.set_defaults(run=_simulate)
     march = commands.add_parser(
         "march",
@@ -126,12 +129,19 @@ def _scale(text: str) -> int | str:
         return text
 
 
-def _add_scene(command: argparse.ArgumentParser) -> None:
-    """Add the arguments that name a scene, the configs it comes from, and the file to write."""
+def _add_scene(command: argparse.ArgumentParser, required: bool = True) -> None:
+    """Add the arguments that name a scene, the configs it comes from, and the file to write.
+
+    Parameters
+    ----------
+    command : argparse.ArgumentParser
+    required : bool
+        Whether there is no other road than one of scales.
+    """
     command.add_argument(
         "--scale",
         type=_scale,
-        required=True,
+        required=required,
         metavar="N",
         help="scale of the road, 1 being the coarsest, or all for all scales at once",
     )
@@ -179,6 +189,10 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
 
 
 def _simulate(options: argparse.Namespace) -> int:
+    if options.road is not None:
+        return slide(campaigns.load(*_configs(options.config or [])), options)
+    if options.scale is None:
+        raise InvalidInput("--scale is missing: give the number of a scale, or all; or --road and an areal road")
     _, scene = _read(options)
     from rubfric.results.dataset import write  # heavy: only once the input is known to be right
     from rubfric.results.summary import summary

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import chain, product
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.areal_road import ArealEntry
 from rubfric.config.default import over_default
 from rubfric.config.entries import gathered, names
 from rubfric.config.fitting import fitted_rubber
@@ -47,6 +48,7 @@ from rubfric.rubber.fitted import FittedRubber
 from rubfric.rubber.material import Material
 from rubfric.rubber.shift import Shift
 from rubfric.rules import Choice
+from rubfric.scene.areal import ArealScene
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
 
@@ -122,6 +124,10 @@ class Campaign:
         The rubber's shift factors.
     temperatures : tuple of float
         degC, ascending; none where the rubber is simulated as it is given.
+    areal_roads : dict of str to ArealEntry
+        Roads that are surfaces, by name.
+    areal : tuple of str
+        Those that are slid over at every speed and pressure.
     others : tuple of Campaign
         Of every other pair where the config has several rubbers or roads, the grid alone; this is the first rubber on
         the first road.
@@ -150,6 +156,8 @@ class Campaign:
     shift: Shift | None = None
     temperatures: tuple[float, ...] = ()
     others: tuple[Campaign, ...] = ()
+    areal_roads: dict[str, ArealEntry] = field(default_factory=dict)
+    areal: tuple[str, ...] = ()
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
@@ -186,6 +194,8 @@ class Campaign:
         campaign = cls(
             results=given.results,
             material=material,
+            areal_roads={name: road for name, road in given.roads.items() if isinstance(road, ArealEntry)},
+            areal=given.areal,
             road_name=road_name,
             road=road,
             phases=phases,
@@ -321,6 +331,34 @@ class Campaign:
             scenes = [replace(scene, road=self.survey.windows[0], aspect=aspect) for scene in scenes]
         roads = self.whole_roads.items()
         return {draw + scene.name: replace(scene, road=road) for draw, road in roads for scene in scenes}
+
+    def areal_scenes(self) -> dict[str, ArealScene]:
+        """Return every scene on an areal road by ``road/name``."""
+        scenes: dict[str, ArealScene] = {}
+        grid = product(self.areal, self.temperatures or (None,), self.pressures, self.velocities)
+        for name, temperature, pressure, velocity in grid:
+            scene = self.areal_scene(name, velocity, pressure, temperature)
+            scenes[f"{name}/{scene.name}"] = scene
+        return scenes
+
+    def areal_scene(self, road: str, velocity: float, pressure: float, temperature: float | None = None) -> ArealScene:
+        """Return a scene on an areal road.
+
+        Parameters
+        ----------
+        road : str
+            Its name.
+        velocity : float
+            mm/s.
+        pressure : float
+            MPa.
+        temperature : float, optional
+            degC, of a rubber with shift factors; where the grid has temperatures, that of the figures by default.
+        """
+        warm = self.figures.temperature if temperature is None else checks.number("temperature", temperature)
+        material = self.material if warm is None else rubber_at(self.material, self.shift, warm)
+        entry = self.areal_roads[road]
+        return ArealScene(entry.road(), velocity, pressure, material, numerics=entry.numerics, temperature=warm)
 
     def whole_parameters(self) -> dict[str, Any]:
         """Return what the total over the scales depends on besides results, as plain values.

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Discriminator, Tag, create_model, model_validator
 
+from rubfric.config.areal_road import ArealEntry, is_areal
 from rubfric.config.entries import Catalogue, Entry, Named, Scales, grid_values, keys
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.measured_road import MeasuredRoad
@@ -203,7 +204,9 @@ def _sound(rubber: Any) -> Any:
 
 
 def _kind_of_road(given: Any) -> str:
-    """Return the tag of a road that is measured, by a key of it or one that is misspelt, or of a list of scales."""
+    """Return the tag of a road: areal, measured by a key of it or one that is misspelt, or a list of scales."""
+    if is_areal(given):
+        return f"{HERE}areal"
     keys = given if isinstance(given, Mapping) else ()
     measured = isinstance(given, MeasuredRoad) or any(
         get_close_matches(str(key), MeasuredRoad.model_fields) for key in keys if key not in Scale.model_fields
@@ -290,6 +293,16 @@ class Config(Entry):
     road: Annotated[
         Any, Named("Name of the road in use, one of those under roads; or several, likewise.", several=True)
     ]
+    areal: Annotated[
+        tuple[str, ...],
+        Items(
+            "Areal roads, by their names under roads, that are slid over at every speed and pressure of the grid, in "
+            "small strain and beside the road in use.",
+            Word(),
+            least=0,
+            ascending=False,
+        ),
+    ] = ()
     plane: Annotated[str, Choice("Plane stress (the paper's CPS4R) or plane strain.", PLANES)]
     kinematics: Annotated[
         str,
@@ -340,9 +353,10 @@ class Config(Entry):
                     Scales("Scales of a road, from coarse to fine; scale 1 is the first."),
                     Tag(f"{HERE}scales"),
                 ]
-                | Annotated[MeasuredRoad, Tag(f"{HERE}measured")],
+                | Annotated[MeasuredRoad, Tag(f"{HERE}measured")]
+                | Annotated[ArealEntry, Tag(f"{HERE}areal")],
                 Discriminator(_kind_of_road),
             ],
         ],
-        Catalogue("Roads by name: by their scales, or by the file of a measured profile."),
+        Catalogue("Roads by name: by their scales, by the file of a measured profile, or areal."),
     ]

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rubfric import checks
+from rubfric.config.areal_road import ArealEntry
 from rubfric.config.entries import names
 from rubfric.config.measured import MeasuredRubber
 from rubfric.config.measured_road import MeasuredRoad
@@ -92,7 +93,18 @@ def references(sections: Mapping[str, Any]) -> list[str]:
             look(Choice(words=presets).check, "claims.preset", claims.preset)
         for name in claims.compare:
             look(Choice(words=claims.readings).check, "claims.compare", name)
+    if "roads" in sections:
+        surfaces = [name for name, road in sections["roads"].items() if isinstance(road, ArealEntry)]
+        for place, one in enumerate(sections.get("areal", ())):
+            look(Choice(words=surfaces).check, f"areal[{place}]", one)
     known = _known(sections, "road", "roads")
+    areal = [name for name in known if isinstance(sections["roads"][name], ArealEntry)]
+    found += [
+        f"road is {name}, an areal road, but must be one of scales or of a profile: over an areal road one scene "
+        f"slides at a time, by   rubfric simulate --road {name}"
+        for name in areal
+    ]
+    known = () if areal else known
     if known:  # what has a number of a scale is made of the first road
         for key, number in _scales(sections):
             road = sections["roads"][known[0]]

@@ -20,7 +20,7 @@ CONVENTIONS = "CF-1.11 UGRID-1.0"
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 
 # Read once: looking up versions takes as long as a scene.
-_SOFTWARE = ", ".join(
+SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
     + [f"{name} {version(name)}" for name in ("numpy", "scipy", "scikit-fem", "xarray", "netCDF4")]
 )
@@ -45,7 +45,7 @@ def about(scene: Scene, title: str) -> dict[str, Any]:
         "scene_digest": scene.digest,
         "rubber": scene.material.name,
         "plane": scene.plane,
-        "software": _SOFTWARE,
+        "software": SOFTWARE,
     }
     units = {"velocity": "mm s-1", "pressure": "MPa", "aspect": "1", "scale": "1"}
     warm = {} if scene.temperature is None else {"temperature": "degC"}

@@ -7,9 +7,8 @@ import numpy as np
 from rubfric.mechanics.steady.error import allowance, friction_error
 from rubfric.mechanics.steady.refinement import LEAST_WORTH
 from rubfric.mechanics.steady.resolution import (
-    MOST_CELLS,
-    MOST_SMALL_CELLS,
     Resolution,
+    most_cells,
     most_columns,
 )
 from rubfric.mechanics.steady.solution import SteadySolution
@@ -91,7 +90,7 @@ def _remedy(solution: SteadySolution) -> str:
             return f"finite strain takes no mesh of more than {most_columns(scene, finite)} columns"
         return "raise numerics.columns_max"
     if not Resolution(mesh.columns, mesh.growth).finer(scene, LEAST_WORTH, finite).affordable(scene, finite):
-        most = MOST_CELLS if finite else MOST_SMALL_CELLS
+        most = most_cells(scene, finite)
         return f"{solution.decision.kinematics} strain takes no mesh of more than {most:,} cells"
     return "raise numerics.refinements"
 

@@ -14,8 +14,9 @@ from rubfric.road.road import finest_waves
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
 
-# Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain.
-_MOST_WAVES = 13.0
+# Finest waves in contact, of one period, beyond which the whole road takes minutes in finite strain, or has no solution
+# that can be found; fewer under a heavy load, of so many long-term shear moduli.
+_MOST_WAVES, _MOST_WAVES_HEAVY, _HEAVY = 40.0, 13.0, 1.5
 
 
 @dataclass(frozen=True)
@@ -96,8 +97,8 @@ class WholeRoad:
     def cheapest(self, velocity: float, pressure: float) -> str:
         """Return the cheapest way that is accurate enough, on every road, at a speed (mm/s) and a pressure (MPa).
 
-        In finite strain it is the corrected sum where no way is, and many of its waves are in contact: the whole road
-        would take minutes there.
+        In finite strain it is the corrected sum where no way is, and many of the road's waves are in contact: the whole
+        road would take minutes there.
 
         Parameters
         ----------
@@ -110,8 +111,14 @@ class WholeRoad:
             way = self.accurate_enough(velocity, pressure)
         except NotConverged:
             return "direct"
-        dear = self.kinematics != "small" and self._waves_in_contact(velocity, pressure) > _MOST_WAVES
-        return "corrected" if way == "direct" and dear else way
+        return "corrected" if way == "direct" and self._dear(velocity, pressure) else way
+
+    def _dear(self, velocity: float, pressure: float) -> bool:
+        """Return whether the whole road would take minutes at a speed (mm/s) and a pressure (MPa)."""
+        if self.kinematics == "small":
+            return False
+        heavy = pressure > _HEAVY * self.material.long_term_shear_modulus
+        return self._waves_in_contact(velocity, pressure) > (_MOST_WAVES_HEAVY if heavy else _MOST_WAVES)
 
     def _waves_in_contact(self, velocity: float, pressure: float) -> float:
         """Return the finest waves of a period times Persson's contact fraction of the whole road, erf(p / p*)."""

@@ -53,7 +53,7 @@ class WaveRoad:
                 f"road has {len(self.amplitudes)} amplitudes, {len(self.wavenumbers)} wavenumbers and "
                 f"{len(self.phases)} phases, but must have one of each for every wave"
             )
-        parts, change = _parts(self.wavenumbers)
+        parts, change = common_parts(self.wavenumbers)
         if change > _SAME:
             raise InvalidInput(_no_period(self.wavenumbers, parts, change))
 
@@ -66,12 +66,12 @@ class WaveRoad:
         amplitudes, wavenumbers, phases : sequence of float, shape (waves,)
             mm, 1/mm and rad.
         """
-        return cls(tuple(amplitudes), _nearest(wavenumbers, _parts(wavenumbers)[0]), tuple(phases))
+        return cls(tuple(amplitudes), nearest_multiples(wavenumbers, common_parts(wavenumbers)[0]), tuple(phases))
 
     @cached_property
     def fundamental(self) -> float:
         """Wavenumber of the period, 1/mm: the largest of which all others are multiples."""
-        return min(self.wavenumbers) / _parts(self.wavenumbers)[0]
+        return min(self.wavenumbers) / common_parts(self.wavenumbers)[0]
 
     @property
     def period(self) -> float:
@@ -117,8 +117,15 @@ class WaveRoad:
         return found
 
 
-def _parts(wavenumbers: Sequence[float]) -> tuple[int, float]:
+def common_parts(wavenumbers: Sequence[float], most: int = MOST_WAVES) -> tuple[int, float]:
     """Return into how many parts the coarsest wavenumber is to be divided for all to be multiples of one.
+
+    Parameters
+    ----------
+    wavenumbers : sequence of float, shape (waves,)
+        1/mm.
+    most : int
+        How many times the finest wave may fit into the common period.
 
     Returns
     -------
@@ -128,14 +135,14 @@ def _parts(wavenumbers: Sequence[float]) -> tuple[int, float]:
         Largest relative change of any wavenumber to the nearest multiple.
     """
     ratios = np.array(wavenumbers) / min(wavenumbers)
-    parts = np.arange(1, max(1, int(MOST_WAVES / ratios.max())) + 1)
+    parts = np.arange(1, max(1, int(most / ratios.max())) + 1)
     multiples = parts[:, None] * ratios
     change = np.abs(np.rint(multiples) / multiples - 1.0).max(axis=1)
     first = int(np.argmax(change <= max(1.1 * float(change.min()), _SAME)))
     return int(parts[first]), float(change[first])
 
 
-def _nearest(wavenumbers: Sequence[float], parts: int) -> tuple[float, ...]:
+def nearest_multiples(wavenumbers: Sequence[float], parts: int) -> tuple[float, ...]:
     """Return the nearest multiples of a part of the coarsest wavenumber."""
     unit = min(wavenumbers) / parts
     return tuple(round(one / unit) * unit for one in wavenumbers)
@@ -144,7 +151,7 @@ def _nearest(wavenumbers: Sequence[float], parts: int) -> tuple[float, ...]:
 def _no_period(wavenumbers: Sequence[float], parts: int, change: float) -> str:
     """Say that a road has no period short enough, and which wavenumbers near its own have one."""
     given, nearest = (
-        ", ".join(checks.written(one) for one in some) for some in (wavenumbers, _nearest(wavenumbers, parts))
+        ", ".join(checks.written(one) for one in some) for some in (wavenumbers, nearest_multiples(wavenumbers, parts))
     )
     return (
         f"wavenumbers of the road are {given} 1/mm, but must have a common period that holds the finest wave at most "

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 _WORDS = {
     "scene": ("scene", "scenes"),
     "whole_scene": ("scene of the whole road", "scenes of the whole road"),
+    "areal_scene": ("scene on an areal road", "scenes on areal roads"),
     "march": ("march", "marches"),
     "reading": ("batch of other readings", "batches of other readings"),
     "table": ("table", "tables"),
@@ -19,7 +20,7 @@ _WORDS = {
     "other": ("other job", "other jobs"),
 }
 # Kinds whose slow jobs are named, and whose last job gets a line in the log.
-_LONG = ("scene", "whole_scene", "march")
+_LONG = ("scene", "whole_scene", "areal_scene", "march")
 # The time left is estimated from so many finished jobs, and of each rule with more than this share of all jobs.
 _FEWEST, _SHARE = 3, 0.1
 

@@ -108,6 +108,41 @@ def whole_files(wildcards):
     return [whole_file(name) for name in WHOLE]
 
 
+def areal_file(name):
+    """Return where the result of a scene on an areal road belongs."""
+    return f"{RESULTS}/areal/{RUBBER}/{name}.nc"
+
+
+def choosing(rubber, road, whole):
+    """Return the parameters of the whole road that decide whether a scene of it is needed; none where all are."""
+    pair = rubber, road
+    return ROADS_OF[pair][WHOLE_OF[pair][whole].temperature] if CHOOSING[pair] else {}
+
+
+def road_points():
+    """Return pressure, speed, cutoff, and paths and digests of all windows, for each point of the table."""
+    points = []
+    cutoffs = [CAMPAIGN.survey.cutoff, *CAMPAIGN.survey.coarser]
+    for cutoff in cutoffs:
+        named = {}
+        for number in range(1, len(CAMPAIGN.survey.windows) + 1):
+            finest = cutoff == CAMPAIGN.survey.cutoff
+            place = f"window{number}/" if finest else folder(cutoff, number)
+            for name, scene in (WHOLE if finest else CUTOFF_SCENES).items():
+                if name == f"{place}{scene.name}" and scene.temperature == TEMPERATURE:
+                    named.setdefault((scene.pressure, scene.velocity), {})[
+                        whole_file(name)
+                    ] = scene.digest
+        points += [[*point, cutoff, files] for point, files in named.items()]
+    return points
+
+
+def pair_files(rubber, road):
+    """Return the results of all scenes of a rubber on a road, the whole road's too."""
+    pair = rubber, road
+    return [*DIGESTS_OF[pair], *(whole_file(name, *pair) for name in WHOLE_OF[pair])]
+
+
 def march_file(name):
     """Return where the march of a scene belongs."""
     return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"
@@ -226,6 +261,7 @@ def made_for_a_config():
         "rig_points": RIG_TABLES,
         "rubber_fit": RUBBER_FILES,
         "road_read": ROAD_FILES,
+        "areal_figure": AREAL_FIGURES,
         "road_friction": ROAD_FRICTION,
         "road_figure": ROAD_FIGURES,
         "claims": CLAIM_FILES,

@@ -19,8 +19,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import DTypeLike
 
-from rubfric.arrays import Complex, Real
+from rubfric.arrays import Complex, Real, single
 from rubfric.mechanics.block.block import Block
 from rubfric.mechanics.finite.law import (
     Deformation,
@@ -76,6 +77,10 @@ class Fields:
             self.volume + share * step.volume,
         )
 
+    def astype(self, precision: DTypeLike) -> Fields:
+        """Return these fields in some precision."""
+        return Fields(*(part.astype(precision, copy=False) for part in vars(self).values()))
+
 
 @dataclass(frozen=True)
 class Stressed:
@@ -118,6 +123,14 @@ class Stiffness:
     state: Stressed
     curvature: Real
     held: Tangent | None = None
+
+    def single(self) -> Stiffness:
+        """Return it in single precision."""
+        state = self.state
+        deformation = Deformation(*map(single, vars(state.deformation).values()))
+        others = (single(part) for name, part in vars(state).items() if name != "deformation")
+        held = None if self.held is None else Tangent(*map(single, vars(self.held).values()))
+        return Stiffness(Stressed(deformation, *others), single(self.curvature), held)
 
     def tangent(self, rows: slice) -> Tangent:
         """Return the tangent at the points of some rows of cells."""
@@ -183,6 +196,13 @@ class FiniteBlock:
         other.history = history
         return other
 
+    def single(self) -> FiniteBlock:
+        """Return the same block, for ``change`` and ``forces`` in single precision."""
+        other = self.with_history(self.history.single())
+        other.turn = single(self.turn)
+        other._to_points, other._to_nodes = single(self._to_points), single(self._to_nodes)
+        return other
+
     @property
     def shear_kernel(self) -> Complex:
         """What the branches add to the long-term shear modulus of the harmonics, MPa, shape (n,)."""
@@ -192,6 +212,14 @@ class FiniteBlock:
     def bulk_kernel(self) -> Complex:
         """What the branches add to the long-term bulk modulus of the harmonics, MPa, shape (n,)."""
         return self.history.bulk_kernel
+
+    @property
+    def contrast(self) -> float:
+        """The largest modulus that a harmonic sees over the long-term shear modulus, dimensionless."""
+        material = self.material
+        bulk = material.long_term_bulk_modulus + np.abs(self.bulk_kernel).max()
+        shear = material.long_term_shear_modulus + np.abs(self.shear_kernel).max()
+        return float(max(bulk, shear) / material.long_term_shear_modulus)
 
     @property
     def unknowns(self) -> int:
@@ -220,14 +248,14 @@ class FiniteBlock:
 
     def gradient(self, displacement: Real) -> Real:
         """Return the displacement gradient xx, xy, yx, yy at the points, shape (4, points, *shape)."""
-        gradient = np.empty((4, self.points, *self.shape))
+        gradient = np.empty((4, self.points, *self.shape), dtype=displacement.dtype)
         top = displacement[:, :1]
         for layer in self.layers:
             nodes = displacement[:, : layer.stored.stop + 1]
             if layer.share > 1:
                 nodes = np.concatenate((restricted(top, layer.columns), layer.nodes_of(displacement)), axis=1)
             rows, nodes = nodes.shape[1] - 1, nodes.swapaxes(0, 1)
-            corners = np.empty((rows, 2, 2, 2, layer.columns))  # row, level, side, component
+            corners = np.empty((rows, 2, 2, 2, layer.columns), dtype=nodes.dtype)  # row, level, side, component
             corners[:, 0, 0], corners[:, 1, 0] = nodes[:-1], nodes[1:]
             if layer.share == 1:
                 corners[:, :, 1, :, :-1], corners[:, :, 1, :, -1] = corners[:, :, 0, :, 1:], corners[:, :, 0, :, 0]
@@ -243,7 +271,7 @@ class FiniteBlock:
 
     def forces(self, stresses: Real) -> Real:
         """Return the nodal forces of first Piola-Kirchhoff stresses, N per mm of thickness, (2, rows + 1, columns)."""
-        nodal = np.zeros((2, self.shape[0] + 1, self.block.columns))
+        nodal = np.zeros((2, self.shape[0] + 1, self.block.columns), dtype=stresses.dtype)
         top = nodal[:, :1]
         for layer in self.layers:
             ordered = layer.of(stresses)
@@ -251,7 +279,7 @@ class FiniteBlock:
             ordered = ordered.reshape(2, 2, self.points, rows, layer.columns).transpose(3, 2, 1, 0, 4)
             corners = self._to_nodes[layer.rows] @ ordered.reshape(rows, 2 * self.points, -1)
             corners = corners.reshape(rows, 4, 2, layer.columns).transpose(1, 2, 0, 3)
-            nodes = nodal[:, : rows + 1] if layer.share == 1 else np.zeros((2, rows + 1, layer.columns))
+            nodes = nodal[:, : rows + 1] if layer.share == 1 else np.zeros((2, rows + 1, layer.columns), nodal.dtype)
             for level, part in ((0, nodes[:, :-1]), (2, nodes[:, 1:])):
                 part += corners[level]
                 if layer.share == 1:

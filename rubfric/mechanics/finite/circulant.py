@@ -11,6 +11,7 @@ the block is; where that matters, its top is held.
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,7 +19,7 @@ import numpy as np
 from scipy import fft
 from scipy.linalg import lapack
 
-from rubfric.arrays import Complex, Flags, Real, Whole
+from rubfric.arrays import Complex, Flags, Real, Whole, single
 from rubfric.mechanics.finite.block import Fields, FiniteBlock, Stiffness
 from rubfric.mechanics.finite.condensation import Condensed, cell_mean, condensed
 from rubfric.mechanics.finite.layers import gathered, node_fields, node_harmonics
@@ -119,6 +120,14 @@ class Circulant:
         if not finite.history.anchored:
             self.compliance[..., 0] = self._surface_response[:, 0] = 0.0
 
+    def single(self) -> Circulant:
+        """Return it for loads in single precision; its compliance stays as it is."""
+        other = copy.copy(self)
+        other._layers = [Condensed(*map(single, layer)) for layer in self._layers]
+        other._factors = [part._replace(factors=single(part.factors)) for part in self._factors]
+        other._surface_response = single(self._surface_response)
+        return other
+
     def right_side(self, forces: Real, thickness_stress: Real, volume_excess: Real) -> RightSide:
         """Return the right-hand side for loads on nodes and points, thickness and volume condensed.
 
@@ -199,13 +208,14 @@ class Circulant:
 
     def _solve(self, right: Complex, transposed: bool = False) -> Complex:
         """Solve for all harmonics, (n, unknowns of a harmonic) -> (n, rows + 1, 2)."""
-        answer = np.zeros((self._harmonics, self._finite.block.rows + 1, 2), dtype=complex)
+        answer = np.zeros((self._harmonics, self._finite.block.rows + 1, 2), dtype=right.dtype)
+        solver = lapack.cgbtrs if right.dtype == np.complex64 else lapack.zgbtrs
         for part in self._factors:
             size = 2 * (part.rows + 1)
             sought = right[part.harmonics, :size].reshape(-1)
-            found, info = lapack.zgbtrs(part.factors, _BAND, _BAND, sought, part.pivots, trans=1 if transposed else 0)
+            found, info = solver(part.factors, _BAND, _BAND, sought, part.pivots, trans=1 if transposed else 0)
             if info:
-                raise ValueError(f"zgbtrs: argument {-info} has an illegal value")
+                raise ValueError(f"gbtrs: argument {-info} has an illegal value")
             if len(self._factors) == 1:
                 return np.asarray(found).reshape(answer.shape)
             answer[part.harmonics, : part.rows + 1] = np.asarray(found).reshape(-1, part.rows + 1, 2)

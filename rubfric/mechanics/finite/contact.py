@@ -169,7 +169,7 @@ class SlidingContact:
         self.finite = finite
         self.label = label
         self.height = scale[0]
-        self._scale = (*scale, _VOLUME * scale[1])
+        self._scale = (float(scale[0]), float(scale[1]), float(_VOLUME * scale[1]))
         rest = finite.at_rest()
         self._shapes = (rest.displacement.shape, rest.log_thickness.shape, rest.volume.shape)
         self._ends = np.cumsum([rest.displacement.size, rest.log_thickness.size])

@@ -21,7 +21,7 @@ from rubfric.road.road import finest_waves
 
 # What is solved on the way needs to be near, not exact: to this residual, and to this share of that of its start, lest
 # the line through two solutions near each other be one through their errors.
-_ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
+ON_THE_WAY, _GAIN, _NEAR_ENOUGH = 3e-3, 0.05, 1e-4
 _FIRST_SHARE = 0.5
 # Shorter steps are not tried: on many waves, where each costs seconds, fewer of them.
 _SMALLEST_SHARE, _SMALLEST_SHARE_MANY = 1e-3, 1e-2
@@ -31,8 +31,9 @@ _NEAR, _SHORTEST = 0.2, 0.05
 _EASY, _LONGER = 5, 1.6
 # The load from which the way along the load begins, over the load asked for.
 _LIGHT = 0.1
-# Work after which a scene is given up, in applications of the tangent times cells: some fifteen seconds on one wave. A
-# Newton step costs as much as so many applications, and each of them as much as the arithmetic of so many cells.
+# Work after which a scene is given up, in applications of the tangent times cells, in layers those that are worked out:
+# some fifteen seconds on one wave. A Newton step costs as much as so many applications, and each of them as much as the
+# arithmetic of so many cells.
 _MOST_WORK, _MOST_WORK_MANY, _PER_STEP, _PER_APPLICATION = 3.0e7, 1.5e8, 10, 5000
 
 _SPENT = "a scene has only so much work, and this one has had it"
@@ -69,9 +70,9 @@ class AttemptLog:
     def _count(self, problem: SlidingContact, steps: int, krylov: int) -> None:
         self.steps += steps
         self.krylov += krylov
-        block = problem.finite.block
+        rows, columns = problem.finite.shape
         applications = krylov + _PER_STEP * (steps + 1)
-        self.work += applications * (block.columns * block.rows + _PER_APPLICATION)
+        self.work += applications * (rows * columns + _PER_APPLICATION)
 
     def solved(self, problem: SlidingContact, what: str, solved: Solved) -> None:
         """Record a success.
@@ -156,7 +157,7 @@ def reach(problem: SlidingContact, flat: Start, load: Load, tolerance: float, lo
     light = replace(load, pressure=_LIGHT * load.pressure)
     try:
         start = Start(problem.finite.pressed(light.pressure), flat.touching)
-        first = way.follow(start, lambda share: replace(light, share=share), rise, last=_ON_THE_WAY)
+        first = way.follow(start, lambda share: replace(light, share=share), rise, last=ON_THE_WAY)
         return way.follow(
             Start(first.fields, first.correction.contact.touching),
             lambda share: replace(load, pressure=_LIGHT ** (1.0 - share) * load.pressure),
@@ -244,7 +245,7 @@ class Way:
         while True:
             ahead, distance = self._near(before, (share, here), min(1.0, share + length), loads)
             guess = _extrapolate(before, (share, here.fields), ahead)
-            tolerance = max(min(_ON_THE_WAY, _GAIN * distance), _NEAR_ENOUGH)
+            tolerance = max(min(ON_THE_WAY, _GAIN * distance), _NEAR_ENOUGH)
             if ahead == 1.0:
                 tolerance = self._tolerance if last is None else last
             try:

@@ -21,10 +21,11 @@ from rubfric.mechanics.finite.linearised import EVEN, Linearised, scaling
 from rubfric.road.road import finest_waves
 
 MOST_KRYLOV = 60
-# Sets of contact nodes that are tried, and how many of them in a row may violate no fewer conditions than the best.
-_MOST_PASSES, _PATIENCE = 12, 4
-# Shares of the residual down to which single precision is enough.
-_SINGLE = 1e-4
+# Sets of contact nodes that are tried: more of them are worth less than a new linearisation.
+_MOST_PASSES = 4
+# Shares of the residual down to which single precision is enough, for vectors and, as long as moduli differ by no more
+# than a factor, for the tangent: what differs by more would be lost in its digits.
+_SINGLE, _MOST_CONTRAST = 1e-4, 1e4
 # Applications of the tangent after which no other set is tried.
 _MOST_APPLIED = 120
 # The first few sets are told from each other after GMRES has solved to this share of the residual.
@@ -99,10 +100,13 @@ def newton_direction(
     applied = most = passes = 0
     precision = np.float32 if forcing >= _SINGLE else np.float64
     scale = scaling(problem.finite, stiffness, finest_waves(load.road)) if scaled else EVEN
-    best, patience, few = len(touching) + 1, _PATIENCE, len(touching) // _COLUMNS_PER_FEW
+    few = len(touching) // _COLUMNS_PER_FEW
+    finite = problem.finite
+    if precision is np.float32 and finite.contrast <= _MOST_CONTRAST:
+        finite, circulant, stiffness = finite.single(), circulant.single(), stiffness.single()
     while True:
         passes += 1
-        linear = Linearised(problem, circulant, stiffness, correction, load, touching, scale)
+        linear = Linearised(problem, finite, circulant, stiffness, correction, load, touching, scale)
         rest, held = linear.rest()
         krylov = Krylov(_operator(problem, linear), problem.pack(rest), vector, MOST_KRYLOV, precision)
         for goal in (max(_LOOSE, forcing), forcing):
@@ -118,13 +122,9 @@ def newton_direction(
                 break
         vector = krylov.vector()
         applied, most = applied + krylov.applied, max(most, krylov.applied)
-        if found < best:
-            best, patience = found, _PATIENCE
-        else:
-            patience -= 1
         if passes == 1:
             first = problem.unpack(vector), touching
-        if not (found > few and patience and passes < _MOST_PASSES and applied < _MOST_APPLIED):
+        if not (found > few and passes < _MOST_PASSES and applied < _MOST_APPLIED):
             plain = first if found > few and passes > 1 else None
             return Direction(problem.unpack(vector), touching ^ violated, applied, most, passes, plain)
         touching = touching ^ violated
@@ -136,7 +136,7 @@ def _operator(problem: SlidingContact, linear: Linearised) -> Operator:
     """Return the derivative of u - T(u) on packed steps; beside it go the pressures and the way along the normals."""
 
     def apply(packed: Real) -> tuple[Real, Real]:
-        step = problem.unpack(packed)
+        step = problem.unpack(packed.astype(linear.precision, copy=False))
         change, pressure = linear.change(step)
         return problem.pack(change), np.stack((pressure, linear.along_normals(step)))
 

@@ -51,7 +51,7 @@ class Krylov:
         self.applied, left = 0, right
         self._known: Real | float = 0.0
         if guess is not None:
-            image, self._known = operator(guess)
+            image, self._known = operator(guess.astype(precision, copy=False))
             self.applied, left = 1, right - image
         self._start = float(np.linalg.norm(left))
         self._basis = np.empty((most + 1, right.size), dtype=precision)
@@ -70,10 +70,10 @@ class Krylov:
         """Add one vector to the space."""
         count = len(self._beside)
         basis, column = self._basis[: count + 1], self._hessenberg[:, count]
-        whole, beside = self._operator(basis[count].astype(np.float64, copy=False))
+        whole, beside = self._operator(basis[count])
         self.applied += 1
         self._beside.append(beside)
-        image = whole.astype(basis.dtype)
+        image = whole.astype(basis.dtype, copy=False)
         size = float(np.linalg.norm(image))
         for _ in range(2):
             before = size

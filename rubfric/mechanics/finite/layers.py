@@ -211,8 +211,9 @@ def node_harmonics(layers: Sequence[Layer], forces: Real) -> Complex:
     """
     if len(layers) == 1:
         return fft.rfft(forces, axis=-1)
-    spectrum = np.zeros((2, layers[-1].rows.stop + 1, layers[0].harmonics), dtype=complex)
-    spectrum[:, 0] = fft.rfft(forces[:, 0], axis=-1)
+    road = fft.rfft(forces[:, 0], axis=-1)
+    spectrum = np.zeros((2, layers[-1].rows.stop + 1, layers[0].harmonics), dtype=road.dtype)
+    spectrum[:, 0] = road
     for layer in layers:
         rows = slice(layer.rows.start + 1, layer.rows.stop + 1)
         spectrum[:, rows, : layer.harmonics] = fft.rfft(layer.nodes_of(forces), axis=-1)
@@ -234,8 +235,9 @@ def node_fields(layers: Sequence[Layer], spectrum: Complex) -> Real:
     columns = layers[0].columns
     if len(layers) == 1:
         return fft.irfft(spectrum, columns, axis=-1)
-    nodes = np.empty((2, layers[-1].stored.stop + 1, columns))
-    nodes[:, 0] = fft.irfft(spectrum[:, 0], columns, axis=-1)
+    road = fft.irfft(spectrum[:, 0], columns, axis=-1)
+    nodes = np.empty((2, layers[-1].stored.stop + 1, columns), dtype=road.dtype)
+    nodes[:, 0] = road
     for layer in layers:
         rows = slice(layer.rows.start + 1, layer.rows.stop + 1)
         found = fft.irfft(spectrum[:, rows, : layer.harmonics], layer.columns, axis=-1)

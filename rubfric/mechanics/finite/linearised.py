@@ -69,6 +69,8 @@ class Linearised:
     Parameters
     ----------
     problem : SlidingContact
+    finite : FiniteBlock
+        The block of the problem, which with the next two may be in single precision.
     circulant : Circulant
         Of T.
     stiffness : Stiffness
@@ -81,6 +83,11 @@ class Linearised:
     scale : Fields
         From ``scaling``, or ``EVEN``.
 
+    Attributes
+    ----------
+    precision : dtype
+        Of the steps that ``change`` takes.
+
     Raises
     ------
     numpy.linalg.LinAlgError
@@ -90,6 +97,7 @@ class Linearised:
     def __init__(
         self,
         problem: SlidingContact,
+        finite: FiniteBlock,
         circulant: Circulant,
         stiffness: Stiffness,
         correction: Correction,
@@ -97,8 +105,10 @@ class Linearised:
         touching: Flags,
         scale: Fields,
     ) -> None:
-        self._problem, self._circulant, self._stiffness = problem, circulant, stiffness
-        self._correction, self._load, self._scale = correction, load, scale
+        self._problem, self._finite, self._circulant, self._stiffness = problem, finite, circulant, stiffness
+        self._correction, self._load, self._even = correction, load, scale is EVEN
+        self.precision = stiffness.curvature.dtype
+        self._scale = scale.astype(self.precision)
         self._normal = correction.normal
         self._width = width = problem.finite.block.column_width
         # The normal turns as nodes move along the road: a stiffness of the surface.
@@ -117,17 +127,23 @@ class Linearised:
     def rest(self) -> tuple[Fields, Real]:
         """Return what the preconditioner makes of unbalanced forces, and the pressures of the road, MPa, with it."""
         known, load = self._correction, self._load
-        if self._scale is EVEN and np.array_equal(known.contact.touching, self._touching):
+        if self._even and np.array_equal(known.contact.touching, self._touching):
             return known.step, known.contact.pressure
+        # Only what the pressures of T leave unbalanced, which is small, goes into single precision.
+        balancing = np.where(self._touching, known.contact.pressure, 0.0)
         forces = -self._problem.finite.forces(known.state.stress[:4])
         forces[1, -1] -= self._problem.finite.top_load(load.pressure)
-        loads = forces, -known.state.stress[4:], -known.state.volume_excess
-        return self._preconditioned(*loads, -known.above, load.pressure * len(self._touching))
+        forces[:, 0] += self._normal * balancing * self._width
+        loads = Fields(forces, -known.state.stress[4:], -known.state.volume_excess).astype(self.precision)
+        unbalanced = loads.displacement, loads.log_thickness, loads.volume
+        total = load.pressure * len(self._touching) - float(balancing.sum())
+        step, change = self._preconditioned(*unbalanced, -known.above, total)
+        return step, balancing + change
 
     def change(self, step: Fields) -> tuple[Fields, Real]:
         """Return what the preconditioner makes of the change under a step, and minus the pressures with it."""
-        change, excess = self._problem.finite.change(self._stiffness, step)
-        forces = self._problem.finite.forces(change[:4])
+        change, excess = self._finite.change(self._stiffness, step)
+        forces = self._finite.forces(change[:4])
         forces[0, 0] += self._turning * step.displacement[0, 0]
         # Contact forces keep the contact nodes at their distance from the road, and carry no more than before.
         answer, pressure = self._preconditioned(forces, change[4:], excess, self.along_normals(step), 0.0)

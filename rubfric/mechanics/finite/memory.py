@@ -7,13 +7,14 @@ time they are numbers, and M and N what is left of the state before.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
 from scipy import fft
 
-from rubfric.arrays import Complex, Real
+from rubfric.arrays import Complex, Real, single
 from rubfric.mechanics.finite.layers import Layer
 from rubfric.rubber.material import Material
 
@@ -54,6 +55,10 @@ class BranchHistory(Protocol):
         """Return B of a field of points, MPa."""
         ...
 
+    def single(self) -> BranchHistory:
+        """Return H and B for fields in single precision."""
+        ...
+
 
 class SteadyHistory:
     """The history of a block that slides steadily: H and B are convolutions, M and N vanish.
@@ -87,6 +92,12 @@ class SteadyHistory:
         """Return the convolution of a field with the bulk kernel, MPa."""
         return convolve_layers(self._layers, self.bulk_kernel, field)
 
+    def single(self) -> SteadyHistory:
+        """Return H and B for fields in single precision."""
+        other = copy.copy(self)
+        other.shear_kernel, other.bulk_kernel = single(self.shear_kernel), single(self.bulk_kernel)
+        return other
+
 
 class StepHistory:
     """The history of a block at the end of a step of time: H and B are numbers.
@@ -108,7 +119,7 @@ class StepHistory:
     def __init__(
         self, shear: float, bulk: float, known_driving: Real, known_pressure: Real | float, harmonics: int
     ) -> None:
-        self._shear, self._bulk = shear, bulk
+        self._shear, self._bulk = float(shear), float(bulk)
         self.known_driving: Real | float = known_driving
         self.known_pressure: Real | float = known_pressure
         self.bulk_relaxes = isinstance(known_pressure, np.ndarray)
@@ -122,6 +133,10 @@ class StepHistory:
     def bulk(self, field: Real) -> Real:
         """Return B times a field, MPa."""
         return self._bulk * field
+
+    def single(self) -> StepHistory:
+        """Return H and B for fields in single precision: themselves."""
+        return self
 
 
 def convolve(kernel: Complex, field: Real) -> Real:

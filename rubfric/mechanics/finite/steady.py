@@ -9,7 +9,7 @@ import numpy as np
 from rubfric.arrays import Flags, Real
 from rubfric.mechanics.finite.block import Fields, FiniteBlock
 from rubfric.mechanics.finite.contact import Correction, Load, SlidingContact, measures
-from rubfric.mechanics.finite.continuation import AttemptLog, Start, attempt, reach
+from rubfric.mechanics.finite.continuation import ON_THE_WAY, AttemptLog, Start, attempt, reach
 from rubfric.mechanics.finite.layers import divided
 from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.prolongation import prolong
@@ -21,12 +21,25 @@ from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
 from rubfric.mechanics.theory.limits import estimated_fraction, near_crests
 from rubfric.road.road import finest_waves
+from rubfric.rubber.pruning import Folding
 from rubfric.scene.scene import Scene
 
 # The first mesh puts this share of the nodes asked for into contact, but no fewer than so many.
 _NODES, _FEWEST_NODES = 0.25, 6
 # The first guess of the contact: that of an elastic half-space, so many times as wide.
 _FIRST_GUESS = 3.0
+# Meshes between two that may be tried where a solution cannot be carried from one to the other at once.
+_BETWEEN = 2
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A solution to start from on the next mesh."""
+
+    resolution: Resolution
+    finite: FiniteBlock
+    fields: Fields
+    touching: Flags
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +118,7 @@ class FiniteSolver:
         self.decision = decision
         self._load = Load(scene.road, scene.pressure)
         self._log = AttemptLog()
-        self._before: tuple[FiniteBlock, Fields, Flags] | None = None
+        self._before: _Found | None = None
 
     def first(self) -> Resolution:
         """Return the mesh to begin with, from the contact of an elastic half-space."""
@@ -121,19 +134,16 @@ class FiniteSolver:
 
     def solve(self, resolution: Resolution) -> FiniteSolution:
         """Return the solution on a mesh."""
-        scene, tolerance, log = self.scene, self.scene.numerics.tolerance, self._log
-        block = resolution.block(scene)
-        folding = fold_scene(scene, block.wavenumbers[1:])
-        stretch, _ = pressed(scene.material, scene.pressure, scene.plane)
-        finite = FiniteBlock(block, folding.material, scene.velocity, divided(block, stretch))
-        problem = SlidingContact(finite, measures(scene.road), scene.name)
-        solved = self._warm(problem)
+        scene, log = self.scene, self._log
+        problem, folding = self._meshed(resolution)
+        finite, block = problem.finite, problem.finite.block
+        solved = self._warm(problem, resolution)
         if solved is None:
             near = near_crests(scene.road, block.columns, _FIRST_GUESS * estimated_fraction(scene))
             flat = Start(finite.pressed(scene.pressure), near)
-            solved = reach(problem, flat, self._load, tolerance, log)
+            solved = reach(problem, flat, self._load, scene.numerics.tolerance, log)
         contact = solved.correction.contact
-        self._before = finite, solved.fields, contact.touching
+        self._before = _Found(resolution, finite, solved.fields, contact.touching)
         wanted = min(wanted_nodes(scene, self.finite, count_spots(scene, contact.touching)), block.columns)
         return FiniteSolution(
             scene=scene,
@@ -151,18 +161,38 @@ class FiniteSolver:
             correction=solved.correction,
         )
 
-    def _warm(self, problem: SlidingContact) -> Solved | None:
-        """Return the solution reached from that on the mesh before, or None."""
-        if self._before is None:
-            return None
-        finite, fields, touching = self._before
+    def _meshed(self, resolution: Resolution) -> tuple[SlidingContact, Folding]:
+        """Return the contact problem on a mesh, and how the branches were folded for it."""
+        scene, block = self.scene, resolution.block(self.scene)
+        folding = fold_scene(scene, block.wavenumbers[1:])
+        stretch, _ = pressed(scene.material, scene.pressure, scene.plane)
+        finite = FiniteBlock(block, folding.material, scene.velocity, divided(block, stretch))
+        return SlidingContact(finite, measures(scene.road), scene.name), folding
+
+    def _warm(self, problem: SlidingContact, resolution: Resolution) -> Solved | None:
+        """Return the solution reached from that on the mesh before, by way of meshes between if need be, or None."""
+        for _ in range(_BETWEEN + 1):
+            if self._before is None:
+                return None
+            try:
+                return self._carried(problem, self._before, self.scene.numerics.tolerance)
+            except Stalled:
+                between = self._before.resolution.halfway(resolution, self.scene, self.finite)
+                if between is None:
+                    return None
+                nearer, _ = self._meshed(between)
+            try:
+                found = self._carried(nearer, self._before, ON_THE_WAY)
+            except Stalled:
+                return None
+            self._before = _Found(between, nearer.finite, found.fields, found.correction.contact.touching)
+        return None
+
+    def _carried(self, problem: SlidingContact, before: _Found, tolerance: float) -> Solved:
         columns = problem.finite.block.columns
-        start = Start(prolong(fields, finite, problem.finite), _carry(touching, columns))
-        what = f"{columns} columns, from {finite.block.columns}"
-        try:
-            return attempt(problem, start, self._load, self.scene.numerics.tolerance, self._log, what)
-        except Stalled:
-            return None
+        start = Start(prolong(before.fields, before.finite, problem.finite), _carry(before.touching, columns))
+        what = f"{columns} columns, from {before.finite.block.columns}"
+        return attempt(problem, start, self._load, tolerance, self._log, what)
 
 
 def _friction(scene: Scene, finite: FiniteBlock, solved: Solved) -> Friction:

@@ -19,6 +19,8 @@ COLUMN_STEP = 8
 # more columns, so many times the fewest that the finest of them needs.
 MOST_FINITE, MOST_CELLS, MOST_SMALL_CELLS = 4096, 450_000, 20_000_000
 _TIMES_FEWEST = 2
+# On many waves the spots of contact are many and small, and deep rows cost little.
+MOST_FINITE_MANY, MOST_CELLS_MANY = 8192, 750_000
 # Growth of rows below which they count as even.
 _LEAST_GROWTH = 1.00001
 # So many spots of contact together are resolved as finely as one alone.
@@ -66,7 +68,7 @@ class Resolution:
         finite : bool
             In finite strain.
         """
-        return self.columns * self.block(scene).rows <= (MOST_CELLS if finite else MOST_SMALL_CELLS)
+        return self.columns * self.block(scene).rows <= most_cells(scene, finite)
 
     def finer(self, scene: Scene, factor: float, finite: bool) -> Resolution:
         """Return the mesh with cells smaller by ``factor`` in both directions.
@@ -94,6 +96,21 @@ class Resolution:
         least = max(_COARSEST_COLUMNS, 0.5 * _fewest_columns(scene, finite))
         growth = min(1.0 + 2.0 * (self.growth - 1.0), _COARSEST_GROWTH)
         return Resolution(min(fit(scene, max(0.5 * self.columns, least), finite), self.columns), growth)
+
+    def halfway(self, other: Resolution, scene: Scene, finite: bool) -> Resolution | None:
+        """Return a mesh between this one and another, or None where there is none.
+
+        Parameters
+        ----------
+        other : Resolution
+        scene : Scene
+        finite : bool
+            In finite strain.
+        """
+        growth = 1.0 + math.sqrt((self.growth - 1.0) * (other.growth - 1.0))
+        between = Resolution(fit(scene, math.sqrt(self.columns * other.columns), finite), growth)
+        meshes = [(one.columns, one.block(scene).rows) for one in (self, between, other)]
+        return between if len(set(meshes)) == len(meshes) else None
 
 
 def needed(scene: Scene, fraction: float, finite: bool, spots: int = 1) -> Resolution:
@@ -176,4 +193,21 @@ def most_columns(scene: Scene, finite: bool) -> int:
         In finite strain.
     """
     most = scene.numerics.columns_max
-    return min(most, max(MOST_FINITE, _TIMES_FEWEST * _PER_WAVE_FINITE * finest_waves(scene.road))) if finite else most
+    if not finite:
+        return most
+    waves = finest_waves(scene.road)
+    return min(most, max(MOST_FINITE_MANY if waves > 1 else MOST_FINITE, _TIMES_FEWEST * _PER_WAVE_FINITE * waves))
+
+
+def most_cells(scene: Scene, finite: bool) -> int:
+    """Return the most cells that a mesh may have.
+
+    Parameters
+    ----------
+    scene : Scene
+    finite : bool
+        In finite strain.
+    """
+    if not finite:
+        return MOST_SMALL_CELLS
+    return MOST_CELLS_MANY if finest_waves(scene.road) > 1 else MOST_CELLS

@@ -29,7 +29,7 @@ def test_schema_and_page_are_those_of_the_models(monkeypatch: pytest.MonkeyPatch
 def test_schema_is_valid_and_closed_and_admits_the_shipped_configs() -> None:
     jsonschema.Draft202012Validator.check_schema(schema())
     objects = [node for node in (schema(), *schema()["$defs"].values()) if node["type"] == "object"]
-    assert len(objects) == 18
+    assert len(objects) == 22
     assert all(node["additionalProperties"] is False for node in objects)
     VALIDATOR.validate(DEFAULTS)
     VALIDATOR.validate(overlaid([CONFIG, CONFIG.with_name("minimal.yaml")], ()))

@@ -174,11 +174,20 @@ def test_cheapest_way_meets_the_accuracy(accuracy: float, way: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kinematics", "pressure", "way"),
-    [("finite", 5.0, "corrected"), ("finite", 0.1, "direct"), ("small", 5.0, "direct")],
+    ("kinematics", "velocity", "pressure", "way"),
+    [
+        ("finite", 1.0, 5.0, "corrected"),
+        ("finite", 1.0, 0.1, "direct"),
+        ("small", 1.0, 5.0, "direct"),
+        # Less of the road is in contact, but the load is heavy.
+        ("finite", 1.0, 1.0, "direct"),
+        ("finite", 100.0, 5.0, "corrected"),
+    ],
 )
-def test_whole_road_is_left_out_where_it_would_take_minutes(kinematics: str, pressure: float, way: str) -> None:
-    assert road("auto", accuracy=0.01, kinematics=kinematics).cheapest(1.0, pressure) == way
+def test_whole_road_is_left_out_where_it_would_take_minutes(
+    kinematics: str, velocity: float, pressure: float, way: str
+) -> None:
+    assert road("auto", accuracy=0.01, kinematics=kinematics).cheapest(velocity, pressure) == way
 
 
 def test_road_of_few_waves_is_solved_at_once_also_where_much_of_it_is_in_contact() -> None:

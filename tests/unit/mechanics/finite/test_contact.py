@@ -174,7 +174,9 @@ def test_linearised_is_the_derivative_at_fixed_contact(
     correction = problem.correct(circulant, found.fields, load(pressure), found.correction.contact.touching)
     stiffness = finite.stiffness(found.fields, correction.state)
     touching = correction.contact.touching
-    linear = Linearised(problem, circulant, stiffness, correction, load(pressure), touching, even(finite))
+    linear = Linearised(
+        problem, problem.finite, circulant, stiffness, correction, load(pressure), touching, even(finite)
+    )
     step = random_step(finite, rng)
 
     def left(sign: float) -> Correction:
@@ -205,11 +207,13 @@ def test_rest_is_the_correction_at_given_contact_nodes(plane: str) -> None:
     stiffness = problem.finite.stiffness(fields, correction.state)
     chosen = correction.contact.touching
     scale = even(problem.finite)
-    step, pressure = Linearised(problem, circulant, stiffness, correction, load(0.5), chosen, scale).rest()
+    step, pressure = Linearised(
+        problem, problem.finite, circulant, stiffness, correction, load(0.5), chosen, scale
+    ).rest()
     np.testing.assert_allclose(problem.pack(step), problem.pack(correction.step), atol=1e-10)
     np.testing.assert_allclose(pressure, correction.contact.pressure, atol=1e-10)
     others = chosen ^ (np.arange(len(chosen)) == np.flatnonzero(chosen)[0])
-    linear = Linearised(problem, circulant, stiffness, correction, load(0.5), others, scale)
+    linear = Linearised(problem, problem.finite, circulant, stiffness, correction, load(0.5), others, scale)
     step, pressure = linear.rest()
     np.testing.assert_allclose((correction.above + linear.along_normals(step))[others], 0.0, atol=1e-12 * AMPLITUDE)
     assert pressure.mean() == pytest.approx(0.5, rel=1e-12)
@@ -230,7 +234,7 @@ def test_scale_changes_the_way_to_a_direction_but_not_the_direction(plane: str, 
     np.testing.assert_array_equal(local.displacement[-1], 1.0)
     steps, pressures = [], []
     for scale in (even(finite), local):
-        linear = Linearised(problem, circulant, stiffness, correction, more, touching, scale)
+        linear = Linearised(problem, problem.finite, circulant, stiffness, correction, more, touching, scale)
         rest, held = linear.rest()
         krylov = Krylov(lambda packed, by=linear: applied(problem, by, packed), problem.pack(rest), None, 80)
         while krylov.residual > 1e-10:

@@ -12,8 +12,10 @@ from finite_fields import AMPLITUDE, WAVENUMBER, coarse, everywhere, flat, load,
 
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite import continuation
+from rubfric.mechanics.finite.block import FiniteBlock
 from rubfric.mechanics.finite.contact import Load, SlidingContact
 from rubfric.mechanics.finite.continuation import AttemptLog, Start, Way, attempt, reach
+from rubfric.mechanics.finite.layers import divided
 from rubfric.mechanics.finite.newton import Solved, Stalled, newton, starting_distance
 from rubfric.road.waves import WaveRoad
 
@@ -213,3 +215,14 @@ def test_fields_without_a_contact_are_infinitely_far(problem: SlidingContact, pr
     folded = problem.finite.at_rest()
     folded.displacement[1] = -2.0 * problem.finite.block.row_positions[:, None]
     assert starting_distance(problem, folded, LOAD, pressed.touching)[0] == np.inf
+
+
+def test_work_counts_the_cells_that_are_worked_out() -> None:
+    whole = coarse("strain", columns=1024)
+    layered = FiniteBlock(whole.block, whole.material, whole.velocity, divided(whole.block, 1.0))
+    work = []
+    for finite in (whole, layered):
+        log = AttemptLog()
+        log.left(sliding(finite), "some way", Stalled("no luck", 2, 9, 0.5))
+        work.append(log.work)
+    assert work[1] < 0.8 * work[0]

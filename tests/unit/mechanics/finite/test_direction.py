@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from finite_fields import AMPLITUDE, coarse, everywhere, flat, load, sliding
+from finite_fields import AMPLITUDE, PROPORTIONAL, coarse, everywhere, flat, load, sliding
 
 from rubfric.arrays import Flags
 from rubfric.mechanics.finite.block import Fields, Stiffness
@@ -12,6 +12,7 @@ from rubfric.mechanics.finite.circulant import Circulant
 from rubfric.mechanics.finite.contact import Correction, SlidingContact
 from rubfric.mechanics.finite.direction import Direction, newton_direction
 from rubfric.mechanics.finite.linearised import Linearised, scaling
+from rubfric.mechanics.finite.newton import newton
 
 PLANES = pytest.mark.parametrize("plane", ["strain", "stress"])
 PRESSURE, FORCING = 0.5, 1e-9
@@ -35,6 +36,7 @@ class Point:
     def linear(self, touching: Flags) -> Linearised:
         return Linearised(
             self.problem,
+            self.problem.finite,
             self.circulant,
             self.stiffness,
             self.correction,
@@ -67,12 +69,13 @@ def test_first_guess_of_the_contact_nodes_does_not_matter(plane: str) -> None:
     expected = point.direction(point.correction.contact.touching)
     columns = np.arange(len(expected.touching))
     for guess in (columns >= 0, columns == 4, ~expected.touching):
-        found = point.direction(guess)
+        first = point.direction(guess)
+        assert first.passes > 1
+        assert first.krylov >= first.most + first.passes - 1
+        found = point.direction(first.touching)
         np.testing.assert_array_equal(found.touching, expected.touching)
         distance = found.step.displacement - expected.step.displacement
         assert np.abs(distance).max() < 1e-6 * AMPLITUDE
-        assert found.passes > 1
-        assert found.krylov >= found.most + found.passes - 1
 
 
 @PLANES
@@ -81,6 +84,21 @@ def test_solved_guess_takes_one_pass(plane: str) -> None:
     found = point.direction(point.direction(everywhere(point.problem.finite)).touching)
     assert found.passes == 1
     assert found.krylov == found.most
+
+
+@PLANES
+@pytest.mark.parametrize("scaled", [True, False])
+def test_single_precision_gives_the_direction_as_exactly_as_is_asked(plane: str, scaled: bool) -> None:
+    problem = sliding(coarse(plane, PROPORTIONAL))
+    near = newton(problem, flat(problem.finite, 4.0), load(4.0), everywhere(problem.finite), 1e-5)
+    stiffness = problem.finite.stiffness(near.fields, near.correction.state)
+    known = problem, near.circulant, stiffness, near.correction, load(4.0), near.correction.contact.touching
+    exact = newton_direction(*known, 1e-9, scaled)
+    # The residual is a hundred thousandth of a step from the flat road: cancellation must not eat what is left.
+    rough = newton_direction(*known, 1e-3, scaled)
+    assert rough.step.displacement.dtype == np.float64
+    size = problem.size
+    assert size(rough.step.moved(exact.step, -1.0)) < 0.02 * size(exact.step)
 
 
 @PLANES

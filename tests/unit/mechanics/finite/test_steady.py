@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 
 from rubfric.errors import NotConverged
 from rubfric.mechanics.finite import steady as finitesteady
-from rubfric.mechanics.finite.newton import Stalled
+from rubfric.mechanics.finite.contact import SlidingContact
+from rubfric.mechanics.finite.newton import Solved, Stalled
 from rubfric.mechanics.finite.steady import FiniteSolution, solve_finite
 from rubfric.mechanics.theory.compression import pressed, stored_energy
 from rubfric.mechanics.theory.kinematics import Decision
@@ -203,6 +205,30 @@ def test_coarse_mesh_that_does_not_help_is_made_good(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(finitesteady, "attempt", stall)
     found = solve_finite(scene, DECISION)
     assert found.history[-1].startswith(f"{expected.block.columns} columns, at once: converged")
+    np.testing.assert_allclose(
+        found.contact.pressure, expected.contact.pressure, atol=1e-3 * expected.contact.pressure.max()
+    )
+
+
+def test_where_a_mesh_is_too_far_from_the_one_before_another_between_them_leads_to_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene, tries = replace(PARTIAL, numerics=replace(COARSE, row_growth=1.2)), []
+    expected = solve(scene)
+    real = finitesteady.attempt
+
+    def stall_once(problem: SlidingContact, *rest: Any) -> Solved:
+        tries.append(problem.finite.block.columns)
+        if len(tries) == 1:
+            raise Stalled("no luck", 1, 9, 0.1)
+        return real(problem, *rest)
+
+    monkeypatch.setattr(finitesteady, "attempt", stall_once)
+    found = solve_finite(scene, DECISION)
+    first, between, again = tries[:3]
+    assert again == first > between
+    assert found.history[-2].startswith(f"{between} columns, from ")
+    assert found.history[-1].startswith(f"{first} columns, from {between}: converged")
     np.testing.assert_allclose(
         found.contact.pressure, expected.contact.pressure, atol=1e-3 * expected.contact.pressure.max()
     )

@@ -112,6 +112,19 @@ def test_coarser_mesh_has_its_bounds(scene: Scene, finite: bool) -> None:
 
 
 @KINDS
+def test_mesh_halfway_is_between_two_others_and_there_is_none_between_neighbours(scene: Scene, finite: bool) -> None:
+    coarse, fine = Resolution(128, 1.5), Resolution(512, 1.1)
+    between = coarse.halfway(fine, scene, finite)
+    assert between is not None
+    assert 256 <= between.columns <= 288
+    assert coarse.block(scene).rows < between.block(scene).rows < fine.block(scene).rows
+    assert coarse.halfway(coarse, scene, finite) is None
+    deeper = coarse.halfway(Resolution(128, 1.2), scene, finite)
+    assert deeper is not None
+    assert deeper.columns == 128
+
+
+@KINDS
 def test_rows_never_grow_by_less_than_a_mesh_can_tell(scene: Scene, finite: bool) -> None:
     even = Resolution(64, 1.00001)
     fine = even.finer(scene, 2.0, finite)
