@@ -109,9 +109,19 @@ def simulate(scene: Scene, *, accuracy: float | None = None) -> xr.Dataset:
             solution.iterations,
             energies.closure,
             "relative difference of the three friction coefficients",
-            "the mesh does not resolve this scene, or Poisson's ratio is too near -1: raise the pressure; " + remedy,
+            _unresolved(solution, remedy),
         )
     return dataset.build(solution, energies, time.perf_counter() - started)
+
+
+def _unresolved(solution: SteadySolution, remedy: str) -> str:
+    """Return why the routes to friction differ, and what may help."""
+    if solution.unsolved:
+        return (
+            f"the mesh, of {solution.block.columns} columns, does not resolve this scene, and a finer one, of "
+            f"{solution.unsolved}, has no solution: a lighter load, a longer cutoff or a less steep road is easier"
+        )
+    return f"the mesh does not resolve this scene, or Poisson's ratio is too near -1: raise the pressure; {remedy}"
 
 
 def decide_solvable(scene: Scene) -> Decision:

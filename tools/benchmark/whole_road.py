@@ -123,14 +123,15 @@ def bare(scene: Scene, columns: int) -> float:
 
 def summary(rows: pd.DataFrame) -> str:
     """Return what a page says of the rows."""
-    solved_rows = rows[rows["refusal"].isna()]
+    refused = rows.reindex(columns=["refusal"])["refusal"].notna()  # a column only where there was one
+    solved_rows, others = rows[~refused], rows.loc[refused, "cpu"]
     cpu = solved_rows["cpu"]
     return (
         f"{len(solved_rows)} of {len(rows)} scenes solved: {cpu.median():.1f} s of CPU time at the median, "
         f"{cpu.max():.1f} s at most, {rows['memory'].max():.0f} MB at most; {solved_rows['ratio'].median():.0f} times "
         f"a bare contact solve at the median; stated error {solved_rows['error'].median():.2%} at the median, "
         f"{solved_rows['error'].max():.2%} at most; closure {solved_rows['closure'].max():.2%} at most. "
-        f"The others took {rows['cpu'].drop(solved_rows.index).max():.1f} s at most. {tables.machine()}."
+        f"{f'The others took {others.max():.1f} s at most. ' if len(others) else ''}{tables.machine()}."
     )
 
 

@@ -5,16 +5,6 @@ AREAL = CAMPAIGN.areal_scenes()
 SCANS = CAMPAIGN.areal_scans()
 
 
-def areal_file(name):
-    """Return where the result of a scene on an areal road belongs."""
-    return f"{RESULTS}/areal/{RUBBER}/{name}.nc"
-
-
-def of_scan(name):
-    """Return how the scan of a scene is read, given its name with its road; None on another road."""
-    return SCANS.get(name.split("/")[0])
-
-
 # What a figure shows: of a road at one temperature every scene, by its name.
 AREAL_SHOWN = {
     road: {
@@ -37,21 +27,6 @@ AREAL_TABLES = [
 AREAL_FILES = [*map(areal_file, AREAL), *AREAL_TABLES, *AREAL_FIGURES]
 # How many of a road's profiles the plane model slides over.
 AREAL_PROFILES = {road: CAMPAIGN.areal_roads[road].profiles for road in CAMPAIGN.areal}
-
-
-def profiles_file(name):
-    """Return where the result of the profiles of a scene on an areal road belongs."""
-    return f"{RESULTS}/areal_profiles/{RUBBER}/{name}.nc"
-
-
-def shown_profiles(road):
-    """Return the results of the profiles of all scenes that a figure shows, by name; none where there are none."""
-    count = AREAL_PROFILES[road]
-    return {
-        name: scene.digest_of_profiles(count)
-        for name, scene in AREAL_SHOWN[road].items()
-        if count
-    }
 
 
 if AREAL:

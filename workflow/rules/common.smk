@@ -108,6 +108,61 @@ def whole_files(wildcards):
     return [whole_file(name) for name in WHOLE]
 
 
+def areal_file(name):
+    """Return where the result of a scene on an areal road belongs."""
+    return f"{RESULTS}/areal/{RUBBER}/{name}.nc"
+
+
+def of_scan(name):
+    """Return how the scan of a scene is read, given its name with its road; None on another road."""
+    return SCANS.get(name.split("/")[0])
+
+
+def profiles_file(name):
+    """Return where the result of the profiles of a scene on an areal road belongs."""
+    return f"{RESULTS}/areal_profiles/{RUBBER}/{name}.nc"
+
+
+def shown_profiles(road):
+    """Return the results of the profiles of all scenes that a figure shows, by name; none where there are none."""
+    count = AREAL_PROFILES[road]
+    return {
+        name: scene.digest_of_profiles(count)
+        for name, scene in AREAL_SHOWN[road].items()
+        if count
+    }
+
+
+def choosing(rubber, road, whole):
+    """Return the parameters of the whole road that decide whether a scene of it is needed; none where all are."""
+    pair = rubber, road
+    return ROADS_OF[pair][WHOLE_OF[pair][whole].temperature] if CHOOSING[pair] else {}
+
+
+def road_points():
+    """Return pressure, speed, cutoff, and paths and digests of all windows, for each point of the table."""
+    points = []
+    cutoffs = [CAMPAIGN.survey.cutoff, *CAMPAIGN.survey.coarser]
+    for cutoff in cutoffs:
+        named = {}
+        for number in range(1, len(CAMPAIGN.survey.windows) + 1):
+            finest = cutoff == CAMPAIGN.survey.cutoff
+            place = f"window{number}/" if finest else folder(cutoff, number)
+            for name, scene in (WHOLE if finest else CUTOFF_SCENES).items():
+                if name == f"{place}{scene.name}" and scene.temperature == TEMPERATURE:
+                    named.setdefault((scene.pressure, scene.velocity), {})[
+                        whole_file(name)
+                    ] = scene.digest
+        points += [[*point, cutoff, files] for point, files in named.items()]
+    return points
+
+
+def pair_files(rubber, road):
+    """Return the results of all scenes of a rubber on a road, the whole road's too."""
+    pair = rubber, road
+    return [*DIGESTS_OF[pair], *(whole_file(name, *pair) for name in WHOLE_OF[pair])]
+
+
 def march_file(name):
     """Return where the march of a scene belongs."""
     return f"{RESULTS}/marches/{RUBBER}/{ROAD}/{name}.nc"

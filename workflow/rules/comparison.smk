@@ -134,12 +134,6 @@ if COMPARED:
             )
 
 
-def pair_files(rubber, road):
-    """Return the results of all scenes of a rubber on a road, the whole road's too."""
-    pair = rubber, road
-    return [*DIGESTS_OF[pair], *(whole_file(name, *pair) for name in WHOLE_OF[pair])]
-
-
 # All that is asked for of a comparison, the scenes in between by name; nothing for one rubber on one road.
 COMPARISON_FILES = [
     *(path for pair in PAIR_TABLES for path in pair_files(*pair)),
@@ -151,4 +145,4 @@ COMPARISON_FILES = [
 rule comparison:
     input:
         COMPARISON_FILES,
-        [path for path in FIGURES if "/fig13." in path],
+        [path for path in FIGURES if os.path.basename(path).startswith("fig13.")],

@@ -16,24 +16,6 @@ ROAD_FIGURES = [
 ]
 
 
-def road_points():
-    """Return pressure, speed, cutoff, and paths and digests of all windows, for each point of the table."""
-    points = []
-    cutoffs = [CAMPAIGN.survey.cutoff, *CAMPAIGN.survey.coarser]
-    for cutoff in cutoffs:
-        named = {}
-        for number in range(1, len(CAMPAIGN.survey.windows) + 1):
-            finest = cutoff == CAMPAIGN.survey.cutoff
-            place = f"window{number}/" if finest else folder(cutoff, number)
-            for name, scene in (WHOLE if finest else CUTOFF_SCENES).items():
-                if name == f"{place}{scene.name}" and scene.temperature == TEMPERATURE:
-                    named.setdefault((scene.pressure, scene.velocity), {})[
-                        whole_file(name)
-                    ] = scene.digest
-        points += [[*point, cutoff, files] for point, files in named.items()]
-    return points
-
-
 if ROAD_FRICTION:
     ROAD_POINTS = road_points()
     ROAD_SINES = [

@@ -22,7 +22,7 @@ rule scene:
         ].parameters(),
         version=rubfric.__version__,
     message:
-        "{wildcards.scene}" + OF_PAIR
+        f"{{wildcards.scene}}{OF_PAIR}"
     run:
         jobs.run(input.script, log[0], output=output[0], parameters=params.parameters)
 

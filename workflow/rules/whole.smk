@@ -43,12 +43,6 @@ WHOLE_DIGESTS = WHOLE_DIGESTS_OF[RUBBER, ROAD]
 WHOLE_COLLECTED = whole_fingerprint(WHOLE_DIGESTS)
 
 
-def choosing(rubber, road, whole):
-    """Return the parameters of the whole road that decide whether a scene of it is needed; none where all are."""
-    pair = rubber, road
-    return ROADS_OF[pair][WHOLE_OF[pair][whole].temperature] if CHOOSING[pair] else {}
-
-
 rule whole_scene:
     input:
         lambda wildcards: WHOLE_CODE[wildcards.rubber, wildcards.road],
@@ -68,7 +62,7 @@ rule whole_scene:
         ),
         version=rubfric.__version__,
     message:
-        "{wildcards.whole}" + OF_PAIR
+        f"{{wildcards.whole}}{OF_PAIR}"
     run:
         jobs.run(
             input.script,
