@@ -156,9 +156,12 @@ def _filled(surface: Real, known: Flags) -> Real:
     if known.all():
         return surface
     from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator  # heavy: only where heights are missing
+    from scipy.ndimage import binary_dilation
 
-    there, lacking = np.argwhere(known), np.argwhere(~known)
-    values = surface[known]
+    # Triangles over what is missing have their corners beside it, whatever is known elsewhere.
+    beside = known & binary_dilation(~known, np.ones((3, 3)))
+    there, lacking = np.argwhere(beside), np.argwhere(~known)
+    values = surface[beside]
     found = LinearNDInterpolator(there, values)(lacking)
     outside = np.isnan(found)
     if outside.any():

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
 from rubfric.errors import InvalidInput
 from rubfric.road.areal import unit_vector
-from rubfric.road.areal_scan import ScannedRoad
+from rubfric.road.areal_scan import ScannedRoad, _filled
 from rubfric.road.areal_waves import ArealWaves
 from rubfric.road.self_affine import SelfAffine
 
@@ -110,6 +111,20 @@ def test_scan_of_a_periodic_road_gives_it_back(rng: np.random.Generator) -> None
     filled = ScannedRoad.of_heights(lacking, (1.0 / 256, 1.0 / 256), degree=0, blend=0.0)
     assert filled.missing == np.count_nonzero(np.isnan(lacking))
     assert np.abs(filled.spectrum.heights((256, 256)) - fine).max() < 0.05 * fine.std()
+
+
+def test_holes_are_filled_from_what_is_beside_them() -> None:
+    y, x = np.mgrid[0:40, 0:60].astype(float)
+    heights = np.sin(0.1 * x) * np.cos(0.1 * y)
+    holes = (np.hypot(x - 20, y - 15) < 6) | ((x > 40) & (y > 30)) | (np.abs(x - y - 10) < 1) | (y + x < 8)
+    found = _filled(heights, ~holes)
+    np.testing.assert_array_equal(found[~holes], heights[~holes])
+    all_known = LinearNDInterpolator(np.argwhere(~holes), heights[~holes])(np.argwhere(holes))
+    inside = np.isfinite(all_known)
+    np.testing.assert_allclose(found[holes][inside], all_known[inside], atol=0.01)  # where circles have ties, either
+    nearest = NearestNDInterpolator(np.argwhere(~holes), heights[~holes])(np.argwhere(holes))
+    assert 0 < np.count_nonzero(~inside) < inside.size
+    np.testing.assert_allclose(found[holes][~inside], nearest[~inside], atol=0.1)  # two may be as near
 
 
 def test_form_of_a_scan_is_removed_whatever_is_missing(rng: np.random.Generator) -> None:
