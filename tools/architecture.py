@@ -38,7 +38,7 @@ _COLOURS = {
     "errors arrays checks checksums files markdown outputs rules streams": ("#7b8794", "#f5f7fa"),
     "rubber road columns profile dma decks scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
-    "results simulation areal_simulation marching": ("#1a6e8e", "#eef7fb"),
+    "results simulation areal_simulation areal_plane marching": ("#1a6e8e", "#eef7fb"),
     "rig studies figures": ("#a16207", "#fdf8ea"),
     "pages rubber_commands road_commands areal_commands cli runner": ("#882255", "#fbf0f5"),
 }
