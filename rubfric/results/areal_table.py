@@ -85,8 +85,8 @@ def plane_words(table: pd.DataFrame) -> str:
     ratio = known["plane_over_surface"]
     low, high = known.loc[ratio.idxmin()], known.loc[ratio.idxmax()]
     ends = [
-        f"{one['plane_over_surface']:.2f} ± {one['plane_over_surface_error']:.2f} at {one['velocity_mm_per_s']:g} mm/s "
-        f"and {one['pressure_MPa']:g} MPa"
+        f"{one['plane_over_surface']:.2f} ± {one['plane_over_surface_error']:.2f} ({one['velocity_mm_per_s']:g} mm/s, "
+        f"{one['pressure_MPa']:g} MPa)"
         for one in ((low,) if low.equals(high) else (low, high))
     ]
-    return f"the plane model on its profiles gives {' to '.join(ends)}, times the friction of the surface"
+    return f"friction of its profiles in the plane model is {' to '.join(ends)} times that of the surface"

@@ -54,7 +54,7 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
     assert (table["profiles"] == 16).all()
     assert table["plane_over_surface"].between(0.8, 1.2).all()
     page = (made / "tables/friction_total.html").read_text(encoding="utf-8")
-    assert "on the areal road runway the plane model on its profiles gives" in page
+    assert "on the areal road runway friction of its profiles in the plane model is" in page
     assert "areal road scanned" not in page
     assert "plane_over_surface" not in read_table(made / "tables/areal_scanned.csv", ["note"])
     assert project.plan().jobs == {}

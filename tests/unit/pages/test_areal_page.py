@@ -56,7 +56,7 @@ def test_maps_are_the_fields_on_one_scale() -> None:
 
 def test_page_needs_nothing_else_and_says_how_far_the_plane_is_off() -> None:
     page = areal_page([result(1.0), result(10.0)], TABLE, "runway")
-    assert "0.90 ± 0.05 at 1 mm/s and 0.3 MPa to 1.10 ± 0.05 at 10 mm/s" in page
+    assert "0.90 ± 0.05 (1 mm/s, 0.3 MPa) to 1.10 ± 0.05 (10 mm/s, 0.3 MPa) times that of the surface" in page
     assert "profile 3: &lt;refused&gt;" in page
     assert not re.search(r"(src|href)=|https?:", page)
     held = json.loads(re.findall(r'<script type="application/json" id="maps">(.*?)</script>', page, re.DOTALL)[0])
