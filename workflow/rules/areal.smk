@@ -19,10 +19,10 @@ AREAL_FIGURES = [
     for road in CAMPAIGN.areal
     for kind in ("pdf", "png")
 ]
+AREAL_COMPARED = {road: f"{RESULTS}/tables/areal_{road}.csv" for road in CAMPAIGN.areal}
 AREAL_TABLES = [
-    f"{RESULTS}/tables/areal_{road}.{kind}"
-    for road in CAMPAIGN.areal
-    for kind in ("csv", "html")
+    *AREAL_COMPARED.values(),
+    *(path.removesuffix("csv") + "html" for path in AREAL_COMPARED.values()),
 ]
 AREAL_FILES = [*map(areal_file, AREAL), *AREAL_TABLES, *AREAL_FIGURES]
 # How many of a road's profiles the plane model slides over.

@@ -60,7 +60,7 @@ rule total_table:
         script=script_copy("tabulate_total.py"),
         campaign=rules.campaign.output[0],
         whole=WHOLE_COLLECTION,
-        areal=[path for path in AREAL_TABLES if path.endswith(".csv")],
+        areal=AREAL_COMPARED.values(),
     output:
         table=report(
             f"{RESULTS}/tables/friction_total.csv",
@@ -84,9 +84,12 @@ rule total_table:
         f"{RESULTS}/logs/tables/friction_total.log",
     localrule: True
     params:
-        roads=ROADS,
-        title=TITLE,
-        collected=[COLLECTED, WHOLE_COLLECTED],
+        about={
+            "roads": ROADS,
+            "title": TITLE,
+            "collected": [COLLECTED, WHOLE_COLLECTED],
+            "areal": AREAL_COMPARED,
+        },
     message:
         "Friction of the whole road: {output.table}"
     run:
@@ -97,10 +100,7 @@ rule total_table:
             page=output.page,
             campaign=input.campaign,
             whole=list(input.whole),
-            collected=params.collected,
-            roads=params.roads,
-            title=params.title,
-            areal=dict(zip(CAMPAIGN.areal, input.areal)),
+            **params.about,
         )
 
 
