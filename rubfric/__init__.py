@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
     from rubfric.simulation import simulate
+    from rubfric.total_simulation import friction
 
 __version__ = "0.1.0"
 
@@ -53,6 +54,7 @@ _HOMES = {
     "SelfAffine": "road.self_affine",
     "SineScale": "road.sine",
     "WaveRoad": "road.waves",
+    "friction": "total_simulation",
     "load": "config.campaign",
     "march": "marching",
     "simulate": "simulation",
@@ -79,6 +81,7 @@ __all__ = [
     "SineScale",
     "WaveRoad",
     "__version__",
+    "friction",
     "load",
     "march",
     "simulate",

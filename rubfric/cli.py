@@ -14,6 +14,8 @@ from rubfric.config.default import base_configs
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
+from rubfric.export_commands import add_export
+from rubfric.friction_commands import add_friction
 from rubfric.rig.cli import add_rig
 from rubfric.road_commands import add_road
 from rubfric.rubber.material import PLANES
@@ -31,6 +33,8 @@ example:
   rubfric simulate --scale all --velocity 100 --pressure 5 --kinematics small
   rubfric simulate --road runway --velocity 100 --pressure 0.3 --config mine.yaml --output areal.nc
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
+  rubfric friction --config mine.yaml --velocity 1,10,100 --pressure 0.2,1
+  rubfric export results --to abaqus --output friction.inp
   rubfric init mine.yaml
 
 The rubber, the road and the numerics are the paper's, or those of config/config.yaml in the working folder, with what
@@ -115,6 +119,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     init.add_argument("file", metavar="FILE", help="config to write, mine.yaml say; a file that exists is left alone")
     init.set_defaults(run=_init)
+    add_friction(commands, _configs)
+    add_export(commands)
     add_rig(commands, _configs)
     add_rubber(commands, _configs)
     add_road(commands, _configs)

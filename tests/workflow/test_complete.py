@@ -52,6 +52,15 @@ def test_every_scene_of_the_whole_road_has_a_result_or_a_reason(template: Projec
         assert (template.results / "logs/whole/zhou2019/zhou2019" / f"{name}.log").read_text().startswith("Refused: ")
 
 
+def test_command_gives_the_friction_that_the_workflow_gives(template: Project) -> None:
+    command = [sys.executable, "-m", "rubfric.cli", "friction", "--config", "config/minimal.yaml", "--csv"]
+    done = subprocess.run(
+        command, cwd=template.root, env=template.environment, capture_output=True, text=True, check=True
+    )
+    assert "solving" not in done.stderr
+    assert done.stdout == (template.results / "tables" / "friction_total.csv").read_text()
+
+
 def test_tables_and_figures_are_there(template: Project) -> None:
     scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
     assert set(template.tables) == {"friction_total.csv", *scales}

@@ -10,6 +10,7 @@ from project_copy import Project
 
 from rubfric import load
 from rubfric.results.tables import read_table
+from rubfric.total_simulation import friction as friction_of
 
 MINE = """
 results: results/mine
@@ -23,7 +24,7 @@ numerics: {preset: draft}
 
 
 @pytest.mark.thorough
-def test_page_and_scenes_follow_the_profile(tmp_path: Path) -> None:
+def test_page_and_scenes_follow_the_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     project = Project.from_source(tmp_path / "project", options=("--configfile", "own/mine.yaml"))
     own = project.root / "own"
     own.mkdir()
@@ -42,6 +43,10 @@ def test_page_and_scenes_follow_the_profile(tmp_path: Path) -> None:
     row = pd.read_csv(made.parent / "tables/friction_total.csv").iloc[0]
     assert (row["way"], row["note"]) == ("direct", "mean of 2 windows of the measured road")
     assert row["friction_road_error"] > 0.0
+    monkeypatch.chdir(project.root)
+    again = friction_of(load(config), progress=pytest.fail)  # all results are there
+    assert again["friction_total"][0] == pytest.approx(row["friction_total"], rel=1e-5)
+    assert again["friction_road_error"][0] == pytest.approx(row["friction_road_error"], rel=1e-5)
     friction = read_table(made / "street_friction.csv", ["way", "note"])
     ways = ["direct", "direct", *["persson"] * 4, "sines", "sum"]
     assert (friction["way"].tolist(), friction["cutoff_mm"].tolist()) == (ways, [8, 4, 2, 1, 0.5, 0.25, 4, 4])

@@ -1,0 +1,181 @@
+"""The answer from the shell: ``rubfric friction`` of the whole road."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import rubfric
+from rubfric.checks import written
+from rubfric.config import campaign as campaigns
+from rubfric.config.pairs import not_covered, which
+from rubfric.config.plausibility import check_plausible
+from rubfric.config.temperature import rubber_at
+from rubfric.errors import InvalidInput
+
+if TYPE_CHECKING:  # heavy
+    import pandas as pd
+
+    from rubfric.config.campaign import Campaign
+
+_EXAMPLE = """\
+examples:
+  rubfric friction --config mine.yaml
+  rubfric friction --config mine.yaml --velocity 1,10,100 --pressure 0.2,1
+  rubfric friction --config mine.yaml --velocity 100 --pressure 0.3 --temperature 0,20,60 --csv > friction.csv
+
+Speeds, pressures and temperatures are those of the config's grid by default. Results in the config's folder are used
+where they fit; what is missing is solved, one scene after the other, and not kept: run snakemake for a whole grid.
+"""
+# Columns of the table that are printed, and their headings.
+_AXES = {"velocity_mm_per_s": "mm/s", "pressure_MPa": "MPa", "temperature_degC": "degC"}
+_NUMBERS = {
+    "friction_total": "friction",
+    "friction_total_error": "error",
+    "friction_numerical_error": "numerics",
+    "friction_coupling_error": "coupling",
+    "friction_road_error": "road",
+    "friction_rubber_error": "rubber",
+}
+_SCALE = "friction_scale_"
+
+
+def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None:
+    """Add the command ``friction`` to the command line.
+
+    Parameters
+    ----------
+    commands : argparse's sub-parsers
+    configs : callable
+        Returns the configs to lay over one another, given those of ``--config``.
+    """
+    command = commands.add_parser(
+        "friction",
+        help="print the friction of the whole road over speed and pressure, with its errors",
+        description="Print the friction of the whole road, what its error is made of, and every scale's share.",
+        epilog=_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    command.add_argument(
+        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
+    )
+    for name, what in (
+        ("velocity", "sliding speeds, mm/s"),
+        ("pressure", "nominal pressures, MPa"),
+        ("temperature", "temperatures of a rubber with shift factors, degC"),
+    ):
+        command.add_argument(
+            f"--{name}", metavar=f"{name[0].upper()},...", help=f"{what}, with commas between (default: the grid's)"
+        )
+    form = command.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="print JSON, for scripts")
+    form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")
+    command.set_defaults(run=_friction, configs=configs)
+
+
+def _friction(options: argparse.Namespace) -> int:
+    campaign = campaigns.load(*options.configs(options.config or []))
+    points = [_listed(options, name) for name in ("velocity", "pressure", "temperature")]
+    from rubfric.total_simulation import at_points, friction  # heavy: only once the config is known to be right
+
+    asked = at_points(campaign, *points)
+    warm = {one: rubber_at(asked.material, asked.shift, one) for one in asked.temperatures}
+    for sentence in check_plausible(asked.material, asked.road, asked.velocities, asked.pressures, warm):
+        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
+    if campaign.others:
+        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    table = friction(asked, progress=lambda line: print(f"rubfric: {line}", file=sys.stderr, flush=True))
+    if options.csv:
+        print(table.to_csv(index=False, float_format="%.6g"), end="")
+    else:
+        print(as_json(asked, table) if options.json else as_text(asked, table))
+    return 0
+
+
+def _listed(options: argparse.Namespace, name: str) -> list[float] | None:
+    """Return the numbers of an option, between commas; nothing where it is not given."""
+    text = getattr(options, name)
+    if text is None:
+        return None
+    try:
+        return [float(word) for word in text.split(",")]
+    except ValueError:
+        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
+
+
+def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
+    """Return a table of totals as it is printed.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        On the grid of the table.
+    table : pandas.DataFrame
+        As from ``rubfric.total_simulation.friction``.
+    """
+    scales = [name for name in table if name.startswith(_SCALE)]
+    heads = {name: head for name, head in (_AXES | _NUMBERS).items() if name in table and table[name].notna().any()}
+    rows = [[*heads.values(), "way", *(f"scale {name.removeprefix(_SCALE)}" for name in scales)]]
+    for _, row in table.iterrows():
+        shares = [row[name] / row["friction_sum"] if row["friction_sum"] else math.nan for name in scales]
+        cells = [written(row[name]) if name in _AXES else _number(row[name]) for name in heads]
+        rows.append([*cells, row["way"], *("-" if math.isnan(share) else f"{share:.1%}" for share in shares)])
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
+    notes = table.loc[table["note"] != "", ["way", "note"]].value_counts(sort=False)
+    about = [f"{way}, {count} of {len(table)} points: {note}" for (way, note), count in notes.items()]
+    return "\n".join(
+        [
+            campaign.words(),
+            "",
+            *lines,
+            "",
+            *about,
+            "error: absolute, the sum of the parts beside it; scale 1, ...: shares of the sum over the scales",
+            f"no error covers: {'; '.join(_open(campaign))}",
+        ]
+    )
+
+
+def _open(campaign: Campaign) -> list[str]:
+    """Return what no error covers."""
+    law = "finite strain" if campaign.kinematics == "small" else "the choice of the finite-strain law"
+    return [*not_covered(campaign), law]
+
+
+def _number(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.4g}"
+
+
+def as_json(campaign: Campaign, table: pd.DataFrame) -> str:
+    """Return a table of totals as JSON: what it is of, and a row for each point, with null for what is not known.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        On the grid of the table.
+    table : pandas.DataFrame
+        As from ``rubfric.total_simulation.friction``.
+    """
+    rows = [
+        {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
+        for row in table.to_dict("records")
+    ]
+    for row in rows:
+        total = row["friction_sum"]
+        row["shares"] = [row[name] / total if total else None for name in row if name.startswith(_SCALE)]
+    about = {
+        "program": f"rubfric {rubfric.__version__}",
+        "rubber": campaign.material.name,
+        "road": campaign.road_name,
+        "plane": campaign.plane,
+        "kinematics": campaign.kinematics,
+        "multiscale": campaign.multiscale.way,
+        "not_covered": _open(campaign),
+    }
+    return json.dumps(about | {"rows": rows}, indent=2)

@@ -1,0 +1,116 @@
+"""The friction of the whole road from the shell and from Python: the workflow's numbers, without the workflow."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import rubfric
+from rubfric import cli, total_simulation
+from rubfric.errors import InvalidInput
+from rubfric.results.dataset import write
+from rubfric.scene.scene import ALL, Scene
+from rubfric.simulation import simulate
+
+POINT = ["friction", "--velocity", "100", "--pressure", "0.5"]
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    path = tmp_path / "mine.yaml"
+    path.write_text(f"results: {tmp_path}\nmultiscale: sum\nkinematics: small\n")
+    return path
+
+
+def test_prints_the_sum_over_the_scales_with_its_errors(config: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    campaign = rubfric.load(config)
+    results = {
+        name: simulate(scene) for name, scene in total_simulation.at_points(campaign, [100], [0.5]).scenes().items()
+    }
+    expected = sum(float(result["friction_coefficient"]) for result in results.values())
+    for name, result in list(results.items())[1:]:
+        write(result, config.parent / "scenes" / "zhou2019" / "zhou2019" / f"{name}.nc")
+    assert cli.main([*POINT, "--config", str(config)]) == 0
+    out, err = capsys.readouterr()
+    first, *_ = results
+    assert err == f"rubfric: solving 1 of 1: {first}\n"
+    assert f"{expected:.4g}" in out.splitlines()[3].split()
+    shares = [float(word[:-1]) for word in out.splitlines()[3].split() if word.endswith("%")]
+    assert len(shares) == 4
+    assert sum(shares) == pytest.approx(100.0, abs=0.21)
+    assert "no error covers: data of rubber zhou2019; other phases of road zhou2019; finite strain\n" in out
+
+    assert cli.main([*POINT, "--config", str(config), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["rows"][0]["friction_total"] == pytest.approx(expected, rel=1e-12)
+    assert found["rows"][0]["friction_road_error"] is None
+    assert found["rows"][0]["way"] == "sum"
+
+    assert cli.main([*POINT, "--config", str(config), "--csv"]) == 0
+    table = pd.read_csv(io.StringIO(capsys.readouterr().out))
+    assert table["friction_total"][0] == pytest.approx(expected, rel=1e-5)
+    parts = table["friction_numerical_error"] + table["friction_coupling_error"]
+    assert table["friction_total_error"][0] == pytest.approx(parts[0], rel=1e-5)
+
+
+def test_files_that_do_not_fit_are_solved_anew(config: Path) -> None:
+    campaign = rubfric.load(config)
+    folder = config.parent / "scenes" / "zhou2019" / "zhou2019"
+    scenes = total_simulation.at_points(campaign, [100], [0.5]).scenes()
+    for place, (name, scene) in enumerate(scenes.items()):
+        write(simulate(scene if place else campaign.scene(2, 100, 0.5)), folder / f"{name}.nc")
+    damaged = folder / f"{list(scenes)[1]}.nc"
+    damaged.write_bytes(damaged.read_bytes()[:-1] + b"!")
+    solved: list[str] = []
+    rubfric.friction(campaign, [100], [0.5], progress=solved.append)
+    assert solved == [f"solving {place} of 2: {name}" for place, name in enumerate(list(scenes)[:2], 1)]
+
+
+def test_corrected_sum_stands_in_for_a_whole_road_without_solution(
+    config: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(scene: Scene) -> object:
+        if scene.scale == ALL:
+            raise InvalidInput("no solution")
+        return simulate(scene)
+
+    monkeypatch.setattr(total_simulation, "simulate", refused)
+    table = rubfric.friction(rubfric.load(config, {"multiscale": "direct"}), [100], [0.5])
+    assert table["way"][0] == "corrected"
+    assert table["note"][0].endswith("was refused: no solution")
+    assert table["refused"][0] == 1
+
+
+def test_every_temperature_is_a_row(config: Path) -> None:
+    shift = {"law": "wlf", "c1": 8.0, "c2": 100.0, "reference_temperature": 20}
+    campaign = rubfric.load(
+        config,
+        {
+            "rubbers": {"zhou2019": {"shift": shift}},
+            "road": "one",
+            "roads": {"one": [{"amplitude": 0.5, "wavelength": 10.0}]},
+        },
+    )
+    table = rubfric.friction(campaign, [100], [0.5], [60, 20])
+    assert table["temperature_degC"].tolist() == [20.0, 60.0]
+    assert table["friction_total"].nunique() == 2
+
+
+@pytest.mark.parametrize(
+    ("option", "sentence"),
+    [
+        (["--velocity", "1;10"], "--velocity is '1;10', but must be numbers with commas between, 1,10,100 say"),
+        (["--velocity", "1,-10"], "velocities[1] is -10 mm/s, but must be greater than 0"),
+        (["--pressure", "0.5,0.5"], "pressures[1] is 0.5 MPa, the same as pressures[0]; keep one"),
+        (["--temperature", "20"], "temperature is 20 degC, but rubber zhou2019 is known at one temperature only"),
+    ],
+)
+def test_wrong_points_are_refused_in_a_sentence(
+    option: list[str], sentence: str, config: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main([*POINT, "--config", str(config), *option]) == 2
+    assert sentence in capsys.readouterr().err
