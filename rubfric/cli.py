@@ -7,19 +7,19 @@ import sys
 from pathlib import Path
 
 import rubfric
-from rubfric.areal_commands import add_areal, slide
+from rubfric.commands.areal import add_areal, slide
+from rubfric.commands.export import add_export
+from rubfric.commands.friction import add_friction
+from rubfric.commands.road import add_road
+from rubfric.commands.rubber import add_rubber
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
-from rubfric.export_commands import add_export
-from rubfric.friction_commands import add_friction
 from rubfric.rig.cli import add_rig
-from rubfric.road_commands import add_road
 from rubfric.rubber.material import PLANES
-from rubfric.rubber_commands import add_rubber
 from rubfric.scene.procedure import STARTS
 from rubfric.scene.scene import KINEMATICS, Scene
 from rubfric.streams import patient_output

@@ -40,10 +40,7 @@ _COLOURS = {
     "mechanics": ("#332288", "#f3f1fb"),
     "results simulation areal_simulation areal_plane marching total_simulation": ("#1a6e8e", "#eef7fb"),
     "rig studies figures": ("#a16207", "#fdf8ea"),
-    "pages rubber_commands road_commands areal_commands friction_commands export_commands cli runner": (
-        "#882255",
-        "#fbf0f5",
-    ),
+    "pages commands cli runner": ("#882255", "#fbf0f5"),
 }
 _INK, _PALE, _MARK = "#1f2933", "#52606d", "#b3261e"
 _WIDTH, _LEFT, _LEGEND, _TOP = 1330, 48, 392, 84

@@ -10,7 +10,7 @@ if PROFILED:
 
     rule road_read:
         input:
-            package_files("rubfric.road_commands"),
+            package_files("rubfric.commands.road"),
             page_files("road"),
             script=script_copy("read_road.py"),
             profile=lambda wildcards: local(PROFILED[wildcards.road].source),

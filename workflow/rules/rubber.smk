@@ -12,7 +12,7 @@ if MEASURED:
 
     rule rubber_fit:
         input:
-            package_files("rubfric.rubber_commands"),
+            package_files("rubfric.commands.rubber"),
             page_files("rubber"),
             script=script_copy("fit_rubber.py"),
             measurements=lambda wildcards: local(MEASURED[wildcards.rubber].source),

@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Any
 
+from rubfric.commands.rubber import write_fit
 from rubfric.config.fitting import arguments
 from rubfric.config.measured import MeasuredRubber
 from rubfric.dma.bootstrap import bootstrap
 from rubfric.dma.fitted import fit_file
-from rubfric.rubber_commands import write_fit
 
 # Samples of the bands on the page.
 SAMPLES = 200

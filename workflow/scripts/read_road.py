@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+from rubfric.commands.road import write_road
 from rubfric.config.measured_road import MeasuredRoad, analysed
-from rubfric.road_commands import write_road
 
 
 def main(output: str, road: str, entry: dict[str, Any]) -> None:

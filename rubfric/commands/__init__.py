@@ -1,0 +1,1 @@
+"""Commands of the shell, a module each; ``rubfric.cli`` puts them together."""
