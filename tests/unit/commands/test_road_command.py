@@ -18,7 +18,7 @@ from rubfric.results.road_friction import Block
 from rubfric.results.tables import read_table
 from rubfric.studies import windows
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture

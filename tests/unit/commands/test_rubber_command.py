@@ -11,7 +11,7 @@ from synthetic_dma import measured, table_1
 from rubfric import load
 from rubfric.cli import main
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 CONFIG = ROOT / "config/config.yaml"
 
 
