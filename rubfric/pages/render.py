@@ -32,9 +32,9 @@ _EXPLORER = (
 _ASSETS = {
     "table": ("page.html", "page.css", "table.html", "cells.html"),
     "claims": ("page.html", "page.css", "claims.html"),
-    "rubber": ("page.html", "page.css", "rubber.html"),
-    "road": ("page.html", "page.css", "road.html"),
-    "slide": ("page.html", "page.css", "slide.html"),
+    "rubber": ("page.html", "page.css", "findings.html", "rubber.html"),
+    "road": ("page.html", "page.css", "findings.html", "road.html"),
+    "slide": ("page.html", "page.css", "findings.html", "slide.html"),
     "areal": ("page.html", "page.css", "areal.html", "cells.html", "areal.css", "areal.js"),
     "explorer": tuple(f"explorer/{name}" for name in _EXPLORER),
 }
