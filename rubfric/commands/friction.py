@@ -118,13 +118,12 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
     table : pandas.DataFrame
         As from ``rubfric.total_simulation.friction``.
     """
-    scales = [name for name in table if name.startswith(_SCALE)]
+    shares = _shares(table)
     heads = {name: head for name, head in (_AXES | _NUMBERS).items() if name in table and table[name].notna().any()}
-    rows = [[*heads.values(), "way", *(f"scale {name.removeprefix(_SCALE)}" for name in scales)]]
-    for _, row in table.iterrows():
-        shares = [row[name] / row["friction_sum"] if row["friction_sum"] else math.nan for name in scales]
+    rows = [[*heads.values(), "way", *(f"scale {name.removeprefix(_SCALE)}" for name in shares)]]
+    for (_, row), share in zip(table.iterrows(), shares.to_numpy(), strict=True):
         cells = [written(row[name]) if name in _AXES else _number(row[name]) for name in heads]
-        rows.append([*cells, row["way"], *("-" if math.isnan(share) else f"{share:.1%}" for share in shares)])
+        rows.append([*cells, row["way"], *("-" if math.isnan(one) else f"{one:.1%}" for one in share)])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     notes = table.loc[table["note"] != "", ["way", "note"]].value_counts(sort=False)
@@ -148,6 +147,16 @@ def _open(campaign: Campaign) -> list[str]:
     return [*not_covered(campaign), law]
 
 
+def _shares(table: pd.DataFrame) -> pd.DataFrame:
+    """Return every scale's share of the sum over the scales; NaN where that is zero or not known."""
+    total = table["friction_sum"]
+    return table.filter(regex=f"^{_SCALE}").div(total.where(total != 0.0), axis=0)
+
+
+def _or_null(value: Any) -> Any:
+    return None if isinstance(value, float) and math.isnan(value) else value
+
+
 def _number(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.4g}"
 
@@ -162,13 +171,11 @@ def as_json(campaign: Campaign, table: pd.DataFrame) -> str:
     table : pandas.DataFrame
         As from ``rubfric.total_simulation.friction``.
     """
+    shares = _shares(table).to_numpy().tolist()
     rows = [
-        {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
-        for row in table.to_dict("records")
+        {name: _or_null(value) for name, value in row.items()} | {"shares": [_or_null(one) for one in share]}
+        for row, share in zip(table.to_dict("records"), shares, strict=True)
     ]
-    for row in rows:
-        total = row["friction_sum"]
-        row["shares"] = [row[name] / total if total else None for name in row if name.startswith(_SCALE)]
     about = {
         "program": f"rubfric {rubfric.__version__}",
         "rubber": campaign.material.name,
