@@ -15,10 +15,6 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import argparse
 import json
-import resource
-import signal
-import subprocess
-import sys
 import time
 from dataclasses import replace
 from itertools import product
@@ -27,14 +23,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import tables
+from alone import child, measured
 
 from rubfric.config.campaign import load
-from rubfric.errors import RubfricError
 from rubfric.mechanics.block.contact import solve_contact
 from rubfric.mechanics.theory.layer import layer_compliance
 from rubfric.rubber.material import PLANES
 from rubfric.scene.scene import Scene
-from rubfric.simulation import simulate
 
 PROJECT = Path(__file__).resolve().parents[2]
 TABLE = PROJECT / "results/benchmark/whole_road.csv"
@@ -64,48 +59,23 @@ def main() -> None:
     asked.table.parent.mkdir(parents=True, exist_ok=True)
     for point in wanted:
         if point not in done:
-            row = dict(zip(POINT, point, strict=True)) | child(*point)
+            row = dict(zip(POINT, point, strict=True)) | child(_arguments(*point[:4]), asked.budget)
             known = pd.concat([known, pd.DataFrame([row])], ignore_index=True)
             known.to_csv(asked.table, index=False, float_format="%.6g")
     print(summary(known.set_index(POINT).loc[wanted].reset_index()))
 
 
-def child(plane: str, velocity: float, pressure: float, accuracy: float, budget: int) -> dict[str, object]:
-    """Return what a process of its own finds of a scene."""
-    command = [sys.executable, __file__, "--one", plane, repr(velocity), repr(pressure), "--accuracy", repr(accuracy)]
-    limits = (budget, budget + 1)
-    found = subprocess.run(
-        command, stdout=subprocess.PIPE, check=False, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, limits)
-    )
-    if found.returncode == -signal.SIGXCPU:
-        return {"cpu": budget, "refusal": f"stopped: more than {budget} s"}
-    if found.returncode:
-        raise SystemExit(f"{' '.join(command)} ended with {found.returncode}")
-    return dict(json.loads(found.stdout))
+def _arguments(plane: str, velocity: float, pressure: float, accuracy: float) -> list[str]:
+    return [__file__, "--one", plane, repr(velocity), repr(pressure), "--accuracy", repr(accuracy)]
 
 
 def solved(plane: str, velocity: float, pressure: float, accuracy: float) -> dict[str, object]:
     """Return the row of one scene, solved in this process."""
     scene = load(PROJECT / "config/config.yaml").scene("all", velocity, pressure, plane=plane, kinematics="finite")
     scene = replace(scene, numerics=replace(scene.numerics, accuracy=accuracy))
-    row: dict[str, object] = {}
-    started = time.process_time()
-    try:
-        result = simulate(scene)
-    except RubfricError as error:
-        row["refusal"] = str(error)
-    row["cpu"] = time.process_time() - started
-    row["memory"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
-    if "refusal" not in row:
-        friction = float(result["friction_coefficient"])
-        columns = int(result["columns"])
-        row |= {
-            "columns": columns,
-            "friction": friction,
-            "error": float(result["friction_coefficient_error"]) / friction,
-            "closure": float(result["energy_closure"]),
-            "ratio": row["cpu"] / bare(scene, columns),
-        }
+    row, result = measured(scene)
+    if result is not None:
+        row |= {"closure": float(result["energy_closure"]), "ratio": row["cpu"] / bare(scene, row["columns"])}
     return row
 
 

@@ -15,11 +15,6 @@ for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import argparse
 import json
-import resource
-import signal
-import subprocess
-import sys
-import time
 from dataclasses import replace
 from functools import cache
 from itertools import product
@@ -28,21 +23,18 @@ from typing import Any
 
 import pandas as pd
 import tables
+from alone import child, measured
 
 from rubfric.config.campaign import load
-from rubfric.errors import RubfricError
 from rubfric.profile.analysis import Analysis, analyse
 from rubfric.profile.cleaning import clean
 from rubfric.profile.reading import read
 from rubfric.results.road_friction import Block
 from rubfric.rubber.material import PLANES
-from rubfric.simulation import simulate
 
 PROJECT = Path(__file__).resolve().parents[2]
 LINES = PROJECT / "results/benchmark/windows.jsonl"
 SPEEDS, PRESSURES = (1.0, 10.0, 100.0, 1e3, 1e4), (0.1, 0.2, 0.5, 1.0)
-# Of a scene of which the refusal, as a limit of CPU time, says nothing.
-_STOPPED = "stopped: more than {} s"
 
 
 def main() -> None:
@@ -79,7 +71,7 @@ def main() -> None:
     known = {key(line): line for line in map(json.loads, written)}
     for point in wanted:
         if key(point) not in known:
-            known[key(point)] = point | child(point, asked.budget)
+            known[key(point)] = point | child([__file__, "--one", json.dumps(point)], asked.budget)
             with asked.lines.open("a", encoding="utf-8") as lines:
                 lines.write(json.dumps(known[key(point)]) + "\n")
     rows = pd.DataFrame([known[key(point)] for point in wanted]).reindex(columns=[*wanted[0], *MEASURED])
@@ -96,22 +88,6 @@ def key(line: dict[str, Any]) -> str:
     return json.dumps({name: value for name, value in line.items() if name not in MEASURED}, sort_keys=True)
 
 
-def child(point: dict[str, Any], budget: int) -> dict[str, Any]:
-    """Return what a process of its own finds of a scene."""
-    limits = (budget, budget + 1)
-    found = subprocess.run(
-        [sys.executable, __file__, "--one", json.dumps(point)],
-        stdout=subprocess.PIPE,
-        check=False,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, limits),
-    )
-    if found.returncode == -signal.SIGXCPU:
-        return {"cpu": float(budget), "refusal": _STOPPED.format(budget)}
-    if found.returncode:
-        raise SystemExit(f"{point} ended with {found.returncode}")
-    return dict(json.loads(found.stdout))
-
-
 @cache
 def analysed(profile: str, window: float, cutoff: float) -> Analysis:
     """Return the analysis of a profile."""
@@ -125,22 +101,9 @@ def solved(point: dict[str, Any]) -> dict[str, Any]:
     numerics = replace(campaign.numerics, accuracy=point["accuracy"])
     block = Block(campaign.material, point["height"], point["plane"], "finite", numerics)
     scene = block.scene(road, point["velocity"], point["pressure"])
-    row: dict[str, Any] = {}
-    started = time.process_time()
-    try:
-        result = simulate(scene)
-    except RubfricError as error:
-        row["refusal"] = str(error)
-    row["cpu"] = time.process_time() - started
-    row["memory"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
-    if "refusal" not in row:
-        friction = float(result["friction_coefficient"])
-        row |= {
-            "columns": int(result["columns"]),
-            "friction": friction,
-            "error": float(result["friction_coefficient_error"]) / friction,
-            "contact": float(result["contact_fraction"]),
-        }
+    row, result = measured(scene)
+    if result is not None:
+        row["contact"] = float(result["contact_fraction"])
     return row
 
 
