@@ -46,7 +46,7 @@ def child(arguments: Sequence[str], budget: int) -> dict[str, Any]:
 
 
 def measured(scene: Scene) -> tuple[dict[str, Any], xr.Dataset | None]:
-    """Return CPU time, s, peak memory, MB, and columns, friction and its error, or a refusal; and the result, if any."""
+    """Return CPU time, s, peak memory, MB, and columns, friction and error, or a refusal; and the result, if any."""
     row: dict[str, Any] = {}
     result = None
     started = time.process_time()
