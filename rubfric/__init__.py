@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
     from rubfric.simulation import simulate
+    from rubfric.studies.sensitivity.study import sensitivity
     from rubfric.total_simulation import friction
 
 __version__ = "0.1.0"
@@ -57,6 +58,7 @@ _HOMES = {
     "friction": "total_simulation",
     "load": "config.campaign",
     "march": "marching",
+    "sensitivity": "studies.sensitivity.study",
     "simulate": "simulation",
     "simulate_areal": "areal_simulation",
     "write": "results.dataset",
@@ -84,6 +86,7 @@ __all__ = [
     "friction",
     "load",
     "march",
+    "sensitivity",
     "simulate",
     "simulate_areal",
     "write",

@@ -1,0 +1,328 @@
+"""How much each number of rubber, road, block and load moves the friction of a scene: ``rubfric.sensitivity``."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import pandas as pd
+
+from rubfric.checks import suggestion, written
+from rubfric.config.campaign import Campaign
+from rubfric.errors import InvalidInput, NotConverged
+from rubfric.rubber.shift import ShiftedRubber
+from rubfric.rules import Integer, Number
+from rubfric.scene.scene import ALL, Scene
+from rubfric.studies.sensitivity.differences import Base, Difference, difference, errors, solved
+from rubfric.studies.sensitivity.parameters import Parameter, parameters
+from rubfric.studies.sensitivity.sobol import indices
+from rubfric.total_simulation import at_points
+
+# By how much a parameter is changed where nothing else is asked for.
+CHANGE = 0.1
+# Exact sums of sensitivities, by the names that a parameter begins with and their signs, and why they vanish.
+_IDENTITIES: Mapping[str, tuple[str, Mapping[str, float]]] = {
+    "E + p": ("all moduli and the pressure together", {"E": 1.0, "p": 1.0}),
+    "sum of tau_i - v": ("all relaxation times longer and the speed lower", {"tau_": 1.0, "v": -1.0}),
+    "sum of a_i + lambda + v": ("all lengths and the speed together", {"a": 1.0, "a_": 1.0, "lambda": 1.0, "v": 1.0}),
+}
+
+
+@dataclass(frozen=True)
+class Identity:
+    """A sum of sensitivities that is zero, since friction depends on numbers without dimension only.
+
+    Attributes
+    ----------
+    sum : str
+        The sum, in symbols.
+    why : str
+        What may change without a change of friction.
+    residual, error : float
+        What the sum comes to, and what the errors of its parts allow.
+    """
+
+    sum: str
+    why: str
+    residual: float
+    error: float
+
+
+@dataclass(frozen=True, repr=False)
+class Sensitivities:
+    """By how much each parameter moves friction.
+
+    Attributes
+    ----------
+    scene : Scene
+    friction, friction_error : float
+        Dimensionless.
+    kinematics : {"small", "finite"}
+    change : float
+        By how much a parameter is changed, relative.
+    table : pandas.DataFrame
+        A row for each parameter, the largest change of friction first: ``parameter``, ``words``, ``unit``, ``value``,
+        ``sensitivity`` (d ln mu / d ln x), ``sensitivity_error``, ``changed_to``, ``friction_change`` (relative) and
+        ``friction_change_error``, and a ``note`` where it could not be found.
+    identities : tuple of Identity
+    sobol : pandas.DataFrame or None
+        First and total order with 95 % intervals, where asked for.
+    notes : tuple of str
+    """
+
+    scene: Scene
+    friction: float
+    friction_error: float
+    kinematics: str
+    change: float
+    table: pd.DataFrame
+    identities: tuple[Identity, ...]
+    sobol: pd.DataFrame | None = None
+    notes: tuple[str, ...] = field(default=())
+
+    def __repr__(self) -> str:
+        clear = self.table[self.table["friction_change"].abs() > self.table["friction_change_error"]]
+        most = ", ".join(
+            f"{row['parameter']} {_signed(row['friction_change'], row['friction_change_error'])}"
+            for row in clear.head(3).to_dict("records")
+        )
+        return f"<Sensitivities of {self.scene.name}: friction {self.friction:.4g}; {self.change:.0%} more: {most}>"
+
+    def sentences(self) -> list[str]:
+        """Return what a change of each parameter does, in words; what does nothing that can be told, in one."""
+        at = f"at {written(self.scene.velocity)} mm/s and {written(self.scene.pressure)} MPa"
+        found, unclear, bound = [], [], 0.0
+        for row in self.table[self.table["note"] == ""].to_dict("records"):
+            size, error = abs(row["friction_change"]), row["friction_change_error"]
+            if size <= error:
+                unclear.append(row["parameter"])
+                bound = max(bound, size + error)
+                continue
+            verb = "raises" if row["friction_change"] > 0.0 else "lowers"
+            found.append(f"{self._changed(row)} {verb} friction {at} by {with_error(size, error)} %")
+        if unclear:
+            found.append(f"no effect that can be told from its error, at most {bound:.1%}: {', '.join(unclear)}")
+        return found
+
+    def _changed(self, row: Mapping[str, Any]) -> str:
+        if row["parameter"] in ("nu", "T"):
+            unit = f" {row['unit']}" if row["unit"] else ""
+            return f"{row['parameter']} of {row['changed_to']:.4g} instead of {row['value']:.4g}{unit}"
+        return f"a {100.0 * self.change:g} % larger {row['parameter']}"
+
+
+def sensitivity(
+    campaign: Campaign,
+    velocity: float | None = None,
+    pressure: float | None = None,
+    temperature: float | None = None,
+    scale: int | str = ALL,
+    *,
+    change: float = CHANGE,
+    only: Sequence[str] = (),
+    sobol: int = 0,
+    preset: str | None = None,
+    accuracy: float | None = None,
+    progress: Callable[[str], None] = lambda line: None,
+) -> Sensitivities:
+    """Return by how much each number of rubber, road, block and load moves friction at one speed and pressure.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        As from ``rubfric.load``.
+    velocity : float, optional
+        mm/s; by default that in the middle of the grid, as for the pressure.
+    pressure : float, optional
+        MPa.
+    temperature : float, optional
+        degC, of a rubber with shift factors; then it is a parameter too.
+    scale : int or "all"
+        One scale of the road, or all at once: the first of several draws or windows.
+    change : float
+        By how much a parameter is changed, relative; temperature by 100 times as many kelvin, and 1 - 2 nu of
+        Poisson's ratio.
+    only : sequence of str
+        Symbols of parameters; all by default.
+    sobol : int
+        N, a power of 2, for Sobol' indices from N (parameters + 2) more scenes; 0 for none.
+    preset : str, optional
+        One of the config's presets; by default that of the whole road, or the config's numerics for a scale.
+    accuracy : float, optional
+        Relative accuracy of friction, instead of that of the preset.
+    progress : callable, optional
+        Takes lines on what is done and what it costs.
+
+    Raises
+    ------
+    InvalidInput
+        For what the campaign has not, and where friction is zero within its error.
+    NotConverged
+        Where the scene itself has no solution; a changed one without leaves a note in the table.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> found = rubfric.sensitivity(rubfric.load({"kinematics": "small"}), 100, 0.5, scale=1, only=["p", "E"])
+    >>> print(found.table[["parameter", "sensitivity"]].round(1).to_string(index=False, header=False))
+    p  0.3
+    E -0.3
+    """
+    change = Number(low=0.001, high=0.3).check("change", change)
+    if sobol:
+        sobol = Integer(low=8, high=2**16).check("sobol", sobol)
+        if sobol & (sobol - 1):
+            raise InvalidInput(f"sobol is {sobol}, but must be a power of 2: {2 ** (sobol.bit_length() - 1)} for one")
+    scene = scene_of(campaign, velocity, pressure, temperature, scale, preset, accuracy)
+    rubber = ShiftedRubber(campaign.material, campaign.shift) if campaign.shift else None
+    chosen = _chosen(parameters(scene, rubber), only)
+    base = solved(scene)
+    fine, coarse = base.cells
+    counted = f"{len(chosen)} parameters: {2 * len(chosen)} scenes on {fine:,} cells, {4 * len(chosen)} on {coarse:,}"
+    progress(counted + (f", and {sobol * (len(chosen) + 2)} for Sobol' indices" if sobol else ""))
+    found, notes = _differences(base, chosen, math.log1p(change), progress)
+    table = _table(base, chosen, found, notes)
+    indexed: pd.DataFrame | None = None
+    said: list[str] = []
+    if sobol:
+        kept = [one for one in chosen if one.name in found]
+        indexed, said = indices(base, kept, [found[one.name] for one in kept], change, sobol, progress=progress)
+    kinematics = base.fine.decision.kinematics
+    about = (
+        base.scene,
+        base.friction,
+        base.error,
+        kinematics,
+        change,
+        table,
+        () if only else identities(table),
+        indexed,
+    )
+    return Sensitivities(*about, notes=tuple(said))
+
+
+def scene_of(
+    campaign: Campaign,
+    velocity: float | None,
+    pressure: float | None,
+    temperature: float | None,
+    scale: int | str,
+    preset: str | None,
+    accuracy: float | None,
+) -> Scene:
+    """Return the scene whose sensitivities are asked for: arguments as those of ``sensitivity``.
+
+    Raises
+    ------
+    InvalidInput
+    """
+    speeds, loads = campaign.velocities, campaign.pressures
+    velocity = speeds[(len(speeds) - 1) // 2] if velocity is None else velocity
+    pressure = loads[(len(loads) - 1) // 2] if pressure is None else pressure
+    warm = None if temperature is None else [temperature]
+    if scale != ALL:
+        return campaign.scene(scale, velocity, pressure, preset=preset, accuracy=accuracy, temperature=temperature)
+    asked = at_points(campaign, [velocity], [pressure], warm)
+    preset = preset or campaign.multiscale.preset
+    plain = asked.scene(ALL, velocity, pressure, preset=preset, accuracy=accuracy, temperature=temperature)
+    first = next(iter(asked.whole_scenes().values()), plain)
+    return replace(plain, road=first.road, aspect=first.aspect)
+
+
+def _chosen(known: Sequence[Parameter], only: Sequence[str]) -> list[Parameter]:
+    names = [one.name for one in known]
+    for name in only:
+        if name not in names:
+            raise InvalidInput(
+                f"the parameter {name!r} is unknown; this scene has {', '.join(names)}{suggestion(name, names)}"
+            )
+    return [one for one in known if not only or one.name in only]
+
+
+def _differences(
+    base: Base, chosen: Sequence[Parameter], step: float, progress: Callable[[str], None]
+) -> tuple[dict[str, Difference], dict[str, str]]:
+    """Return the derivatives along all parameters, and why there is none along some."""
+    found: dict[str, Difference] = {}
+    notes: dict[str, str] = {}
+    began = time.monotonic()
+    for count, one in enumerate(chosen, 1):
+        try:
+            if one.value == 0.0 and one.at(0.0, step) == 0.0:
+                raise InvalidInput(f"{one.name} is 0: no share of it makes a change")
+            found[one.name] = difference(base, one, step)
+        except (InvalidInput, NotConverged) as reason:
+            notes[one.name] = str(reason)
+        left = (time.monotonic() - began) / count * (len(chosen) - count)
+        progress(f"solved {6 * count} of {6 * len(chosen)} scenes, {one.name}; about {left:.0f} s left")
+    return found, notes
+
+
+def _table(
+    base: Base, chosen: Sequence[Parameter], found: Mapping[str, Difference], notes: Mapping[str, str]
+) -> pd.DataFrame:
+    known = list(found.values())
+    error = dict(zip(found, errors(base, known), strict=True)) if known else {}
+    rows = []
+    for one in chosen:
+        row: dict[str, Any] = {"parameter": one.name, "words": one.words, "unit": one.unit, "value": one.value}
+        of = found.get(one.name)
+        row |= {
+            "sensitivity": of.derivative / one.slope if of else math.nan,
+            "sensitivity_error": error[one.name] / one.slope if of else math.nan,
+            "changed_to": one.at(one.value, of.step) if of else math.nan,
+            "friction_change": math.expm1(of.raised) if of else math.nan,
+            "friction_change_error": math.exp(of.raised) * of.step * error[one.name] if of else math.nan,
+            "note": notes.get(one.name, ""),
+        }
+        row["sensitivity_error"] = abs(row["sensitivity_error"])
+        rows.append(row)
+    return pd.DataFrame(rows).sort_values("friction_change", key=abs, ascending=False, ignore_index=True)
+
+
+def identities(table: pd.DataFrame) -> tuple[Identity, ...]:
+    """Return the exact sums of the sensitivities to all parameters of a scene, where no part is missing.
+
+    They test steps and solver. Meshes move along, so that they hold on a coarse mesh as on a fine one.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As of ``Sensitivities``.
+    """
+    answer = []
+    kinds = table["parameter"].str.replace(r"(?<=_)\d+$", "", regex=True)
+    for name, (why, parts) in _IDENTITIES.items():
+        signs = kinds.map(parts)
+        rows = table[signs.notna()]
+        if set(parts) - {"a", "a_"} <= set(kinds) and not rows["sensitivity"].isna().any():
+            residual = float((signs.dropna() * rows["sensitivity"]).sum())
+            answer.append(Identity(name, why, residual, math.hypot(*rows["sensitivity_error"])))
+    return tuple(answer)
+
+
+def with_error(value: float, error: float) -> str:
+    """Return a share and its error in per cent, without the sign of per cent: 3.1 ± 0.2.
+
+    Parameters
+    ----------
+    value, error : float
+    """
+    digits = _digits(error)
+    return f"{100.0 * value:.{digits}f} ± {100.0 * error:.{digits}f}"
+
+
+def _digits(error: float) -> int:
+    """Return the decimals in which an error has one significant digit, or two where it begins with 1."""
+    percent = 100.0 * error
+    if percent <= 0.0 or not math.isfinite(percent):
+        return 2
+    exponent = math.floor(math.log10(percent))
+    return min(max(0, -exponent + (1 if percent / 10.0**exponent < 2.0 else 0)), 6)
+
+
+def _signed(change: float, error: float) -> str:
+    return f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"
