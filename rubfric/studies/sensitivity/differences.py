@@ -10,9 +10,10 @@ that come and go at the edges of a contact change ten times less than the stress
 mesh is the sum of
 
 - truncation, 4/3 |D(h/2) - D(h)| on the coarse mesh, which also has the noise of contact nodes that come and go;
-- mesh: the change from mesh to mesh, extrapolated as that of friction is, but no smaller for its size than that of all
-  parameters together, since two meshes may agree by chance, and no smaller than one node at the edge of a contact
-  makes of it, since a small change may move none;
+- mesh: the change from mesh to mesh, extrapolated as that of friction is; but no smaller than its share of that of all
+  parameters together, by how far they move the contact (the change of the mean square of pressure), since two meshes
+  may agree by chance; and no smaller than one node at the edge of a contact makes of it, since a small change may
+  move none;
 - the tolerance of the solver and the digits of the input, over h;
 - where small strain was chosen for its accuracy, the estimated share of finite strain.
 """
@@ -105,6 +106,8 @@ class Difference:
         D(h) on the coarse mesh.
     truncation, noise : float
         Parts of its error that are known from this parameter alone.
+    moved : float
+        The same difference of ln <pressure^2> on the fine mesh.
     raised : float
         ln mu(h) - ln mu(0), on the fine mesh.
     """
@@ -115,6 +118,7 @@ class Difference:
     coarse: float
     truncation: float
     noise: float
+    moved: float
     raised: float
 
 
@@ -167,13 +171,15 @@ def difference(base: Base, parameter: Parameter, step: float) -> Difference:
     NotConverged
         Where one has no solution.
     """
-    fine, coarse, half = {}, {}, {}
+    fine, coarse, half, squares = {}, {}, {}, {}
     for side in (-1.0, 1.0):
         near, far = (parameter.change(base.scene, part * side * step) for part in (0.5, 1.0))
         start = base.near(near, fine=False)
         half[side] = logarithm(start)
         coarse[side] = logarithm(base.near(far, fine=False, start=start))
-        fine[side] = logarithm(_reached(base, near, far))
+        reached = _reached(base, near, far)
+        fine[side] = logarithm(reached)
+        squares[side] = math.log(float((reached.contact.pressure**2).mean()))
     on_coarse = (coarse[1.0] - coarse[-1.0]) / (2.0 * step)
     friction = base.fine.friction
     rounding = _DIGITS / base.scene.material.long_term_fraction
@@ -184,6 +190,7 @@ def difference(base: Base, parameter: Parameter, step: float) -> Difference:
         coarse=on_coarse,
         truncation=4.0 / 3.0 * abs((half[1.0] - half[-1.0]) / step - on_coarse),
         noise=(friction.resolution / friction.contact + rounding) / step,
+        moved=(squares[1.0] - squares[-1.0]) / (2.0 * step),
         raised=fine[1.0] - logarithm(base.fine),
     )
 
@@ -216,14 +223,15 @@ def errors(base: Base, found: Sequence[Difference]) -> list[float]:
     fine, coarse = base.fine.meshes[-1], base.coarse.meshes[-1]
     ratio = max(math.sqrt(fine.columns / coarse.columns * (coarse.growth - 1.0) / (fine.growth - 1.0)), 1.1)
     extrapolated = _CHANGE / (ratio**ORDER - 1.0)
-    total = math.hypot(*(one.derivative for one in found))
-    share = math.hypot(*(one.derivative - one.coarse for one in found)) / total if total else 0.0
+    moved = math.hypot(*(one.moved for one in found))
+    share = math.hypot(*(one.derivative - one.coarse for one in found)) / moved if moved else 0.0
     decision = base.fine.decision
     small = decision.correction if base.scene.kinematics == "auto" and decision.kinematics == "small" else 0.0
     edges = _EDGES * math.sqrt(fine.spots) / fine.contact_nodes if fine.contact_nodes < fine.columns else 0.0
     answer = []
     for one in found:
         size = abs(one.derivative)
-        mesh = max(extrapolated * max(abs(one.derivative - one.coarse), share * size), edges * size)
+        change = max(abs(one.derivative - one.coarse), share * abs(one.moved))
+        mesh = max(extrapolated * change, edges * size)
         answer.append(one.truncation + mesh + one.noise + small * max(1.0, size))
     return answer
