@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
@@ -20,9 +20,12 @@ from rubfric.studies.sensitivity.differences import Base, Difference, difference
 from rubfric.studies.sensitivity.parameters import Parameter, parameters
 from rubfric.studies.sensitivity.sobol import indices
 from rubfric.total_simulation import at_points
+from rubfric.workers import as_completed
 
 # By how much a parameter is changed where nothing else is asked for.
 CHANGE = 0.1
+# So much work, s, this process does by itself: workers need as long to begin.
+_PATIENCE = 8.0
 # Exact sums of sensitivities, by the names that a parameter begins with and their signs, and why they vanish.
 _IDENTITIES: Mapping[str, tuple[str, Mapping[str, float]]] = {
     "E + p": ("all moduli and the pressure together", {"E": 1.0, "p": 1.0}),
@@ -127,6 +130,7 @@ def sensitivity(
     preset: str | None = None,
     accuracy: float | None = None,
     progress: Callable[[str], None] = lambda line: None,
+    jobs: int | None = None,
 ) -> Sensitivities:
     """Return by how much each number of rubber, road, block and load moves friction at one speed and pressure.
 
@@ -155,6 +159,8 @@ def sensitivity(
         Relative accuracy of friction, instead of that of the preset.
     progress : callable, optional
         Takes lines on what is done and what it costs.
+    jobs : int, optional
+        Most processes to share long work among; as many as there are cores by default.
 
     Raises
     ------
@@ -183,7 +189,7 @@ def sensitivity(
     fine, coarse = base.cells
     counted = f"{len(chosen)} parameters: {2 * len(chosen)} scenes on {fine:,} cells, {4 * len(chosen)} on {coarse:,}"
     progress(counted + (f", and {sobol * (len(chosen) + 2)} for Sobol' indices" if sobol else ""))
-    found, notes = _differences(base, chosen, math.log1p(change), progress)
+    found, notes = _differences(base, chosen, rubber, math.log1p(change), progress, jobs)
     table = _table(base, chosen, found, notes)
     indexed: pd.DataFrame | None = None
     said: list[str] = []
@@ -242,23 +248,60 @@ def _chosen(known: Sequence[Parameter], only: Sequence[str]) -> list[Parameter]:
     return [one for one in known if not only or one.name in only]
 
 
+class _Task(NamedTuple):
+    """A derivative to be found in another process: parameters by name, since they hold functions."""
+
+    base: Base
+    rubber: ShiftedRubber | None
+    name: str
+    step: float
+
+
 def _differences(
-    base: Base, chosen: Sequence[Parameter], step: float, progress: Callable[[str], None]
+    base: Base,
+    chosen: Sequence[Parameter],
+    rubber: ShiftedRubber | None,
+    step: float,
+    progress: Callable[[str], None],
+    jobs: int | None,
 ) -> tuple[dict[str, Difference], dict[str, str]]:
-    """Return the derivatives along all parameters, and why there is none along some."""
-    found: dict[str, Difference] = {}
-    notes: dict[str, str] = {}
+    """Return the derivatives along all parameters, and why there is none along some.
+
+    What would take long is shared among workers.
+    """
+    answers: dict[str, Difference | str] = {}
+    tasks = [_Task(base, rubber, one.name, step) for one in chosen]
     began = time.monotonic()
-    for count, one in enumerate(chosen, 1):
-        try:
-            if one.value == 0.0 and one.at(0.0, step) == 0.0:
-                raise InvalidInput(f"{one.name} is 0: no share of it makes a change")
-            found[one.name] = difference(base, one, step)
-        except (InvalidInput, NotConverged) as reason:
-            notes[one.name] = str(reason)
-        left = (time.monotonic() - began) / count * (len(chosen) - count)
-        progress(f"solved {6 * count} of {6 * len(chosen)} scenes, {one.name}; about {left:.0f} s left")
-    return found, notes
+
+    def note(task: _Task, answer: Difference | str) -> float:
+        answers[task.name] = answer
+        count = len(answers)
+        left = (time.monotonic() - began) / count * (len(tasks) - count)
+        progress(f"solved {6 * count} of {6 * len(tasks)} scenes, {task.name}; about {left:.0f} s left")
+        return left
+
+    left = 0.0
+    while len(answers) < len(tasks) and (left < _PATIENCE or jobs == 1):
+        task = tasks[len(answers)]
+        left = note(task, _answer(task))
+    rest = tasks[len(answers) :]
+    for place, answer in as_completed(_answer, rest, jobs, preload=[__name__]):
+        note(rest[place], answer)
+    in_order = {one.name: answers[one.name] for one in chosen}
+    found = {name: answer for name, answer in in_order.items() if isinstance(answer, Difference)}
+    return found, {name: answer for name, answer in in_order.items() if isinstance(answer, str)}
+
+
+def _answer(task: _Task) -> Difference | str:
+    """Return a derivative, or why there is none."""
+    known = {one.name: one for one in parameters(task.base.scene, task.rubber)}
+    one = known[task.name]
+    try:
+        if one.value == 0.0 and one.at(0.0, task.step) == 0.0:
+            raise InvalidInput(f"{one.name} is 0: no share of it makes a change")
+        return difference(task.base, one, task.step)
+    except (InvalidInput, NotConverged) as reason:
+        return str(reason)
 
 
 def _table(
