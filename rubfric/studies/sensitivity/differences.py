@@ -9,7 +9,8 @@ h the largest step on both meshes and half of it too on the coarse one; mu is th
 that come and go at the edges of a contact change ten times less than the stress power. The error of D(h) on the fine
 mesh is the sum of
 
-- truncation, 4/3 |D(h/2) - D(h)| on the coarse mesh, which also has the noise of contact nodes that come and go;
+- truncation, 3/2 |D(h/2) - D(h)| on the coarse mesh, with the noise of contact nodes that come and go: of a smooth
+  function 4/3 of it to leading order;
 - mesh: the change from mesh to mesh, extrapolated as that of friction is; but no smaller than its share of that of all
   parameters together, by how far they move the contact (the change of the mean square of pressure), since two meshes
   may agree by chance; and no smaller than one node at the edge of a contact makes of it, since a small change may
@@ -39,7 +40,9 @@ from rubfric.studies.sensitivity.parameters import Parameter
 FINER, COARSER = 2.0, 1.5
 # How many times the extrapolated change from mesh to mesh the error may be, and what part of a derivative is not known
 # where the contact has edges: this over the nodes of a spot of it and the root of their number.
-_CHANGE, _EDGES = 1.5, 1.5
+_CHANGE, _EDGES = 1.5, 2.0
+# How many times the difference between a step and half of it its truncation may be.
+_TRUNCATED = 1.5
 # Digits to which numbers of the input are kept: relative.
 _DIGITS = 1e-12
 # Friction must be so many times its error for its logarithm to have a derivative.
@@ -188,7 +191,7 @@ def difference(base: Base, parameter: Parameter, step: float) -> Difference:
         step=step,
         derivative=(fine[1.0] - fine[-1.0]) / (2.0 * step),
         coarse=on_coarse,
-        truncation=4.0 / 3.0 * abs((half[1.0] - half[-1.0]) / step - on_coarse),
+        truncation=_TRUNCATED * abs((half[1.0] - half[-1.0]) / step - on_coarse),
         noise=(friction.resolution / friction.contact + rounding) / step,
         moved=(squares[1.0] - squares[-1.0]) / (2.0 * step),
         raised=fine[1.0] - logarithm(base.fine),
