@@ -14,6 +14,7 @@ import rubfric
 from rubfric.checks import written
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
+from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput
 from rubfric.scene.scene import ALL
 
@@ -99,6 +100,10 @@ def _sensitivity(options: argparse.Namespace) -> int:
     for path in options.output or []:
         if path.suffix not in (".pdf", ".png"):
             raise InvalidInput(f"--output is {path}, but its name must end in .pdf or .png")
+    speeds = [one for one, _ in points if one is not None] or campaign.velocities
+    loads = [one for _, one in points if one is not None] or campaign.pressures
+    for sentence in check_plausible(campaign.material, campaign.road, speeds, loads):
+        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if campaign.others:
         print(f"rubfric: {which(campaign)}", file=sys.stderr)
     from rubfric.studies.sensitivity.study import sensitivity  # heavy: only once the config is known to be right
@@ -174,7 +179,8 @@ def as_text(found: Sensitivities) -> str:
         lines.append(f"{row['parameter']} has no sensitivity: {row['note']}")
     if found.sobol is not None:
         head = f"Sobol' indices within ± {share} of every number, first and total order, with 95 % intervals:"
-        lines += ["", head, *_indices(found.sobol), *found.notes]
+        lines += ["", head, *_indices(found.sobol)]
+    lines += found.notes
     return "\n".join(lines).rstrip()
 
 

@@ -193,9 +193,12 @@ def sensitivity(
     table = _table(base, chosen, found, notes)
     indexed: pd.DataFrame | None = None
     said: list[str] = []
+    if scale == ALL and len(campaign.whole_roads) > 1:
+        said.append(f"of the first of {len(campaign.whole_roads)} roads: draws of phases, or windows of a profile")
     if sobol:
         kept = [one for one in chosen if one.name in found]
-        indexed, said = indices(base, kept, [found[one.name] for one in kept], change, sobol, progress=progress)
+        indexed, stood_in = indices(base, kept, [found[one.name] for one in kept], change, sobol, progress=progress)
+        said += stood_in
     kinematics = base.fine.decision.kinematics
     about = (
         base.scene,
