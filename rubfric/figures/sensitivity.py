@@ -66,7 +66,9 @@ def draw(table: pd.DataFrame, change: float, title: str = "") -> Figure:
     left_out = len(known) - len(shown)
     note = f"; {left_out} with less than {_LEAST:.1%} of the longest bar are left out" if left_out else ""
     axes.set_xlabel(f"change of friction, %, where each is {100.0 * change:g} % larger{note and chr(10)}{note[2:]}")
-    axes.set_title(title)
+    figure.suptitle(
+        title, fontsize=style.RC_PARAMS["axes.titlesize"]
+    )  # centred on all of the figure, not to be cut off
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
     axes.legend(loc="best")
     return figure

@@ -107,7 +107,9 @@ class Sensitivities:
             verb = "raises" if row["friction_change"] > 0.0 else "lowers"
             found.append(f"{self._changed(row)} {verb} friction {at} by {with_error(size, error)} %")
         if unclear:
-            found.append(f"no effect that can be told from its error, at most {bound:.1%}: {', '.join(unclear)}")
+            found.append(
+                f"no effect that can be told from its error, at most {100.0 * bound:.1g} %: {', '.join(unclear)}"
+            )
         return found
 
     def _changed(self, row: Mapping[str, Any]) -> str:
