@@ -91,7 +91,7 @@ class WaveRoad:
 
     @cached_property
     def steepest_slope(self) -> float:
-        """Largest |s'(x)| at 16 points of the finest wave, dimensionless."""
+        """Largest size of s'(x) at 16 points of the finest wave, dimensionless."""
         nodes = _SAMPLES * round(max(self.wavenumbers) / self.fundamental)
         return float(np.abs(self.slope(self.period / nodes * np.arange(nodes))).max())
 

@@ -211,7 +211,7 @@ class Material:
         return ((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))).real
 
     def shear_wave_speed(self, frequency: ArrayLike) -> Real:
-        """Return the speed of shear waves, mm/s, with the stiffness |G*| at a frequency in rad/s."""
+        """Return the speed of shear waves, mm/s, with the size of G* at a frequency in rad/s as the stiffness."""
         return np.sqrt(np.abs(self.complex_shear_modulus(frequency)) / self.density)
 
 

@@ -1,0 +1,40 @@
+"""Render equations as MathML when pages are built: no script, no font and no network when they are read."""
+
+from __future__ import annotations
+
+import html
+from typing import Any
+
+from docutils import nodes
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
+from sphinx.util import logging
+
+_LOGGER = logging.getLogger(__name__)
+
+
+def _render(node: nodes.Element, block: bool) -> str:
+    """Return the MathML of an equation; what cannot be converted is a warning, and shown as it is written."""
+    try:
+        return str(tex2mathml(node.astext(), as_block=block))
+    except MathError as error:
+        _LOGGER.warning("equation is no MathML: %s: %s", error, node.astext(), location=node)
+        return f"<code>{html.escape(node.astext())}</code>"
+
+
+def _inline(writer: Any, node: nodes.Element) -> None:
+    writer.body.append(_render(node, block=False))
+    raise nodes.SkipNode
+
+
+def _block(writer: Any, node: nodes.Element) -> None:
+    writer.body.append(
+        writer.starttag(node, "div", CLASS="math", tabindex="0") + _render(node, block=True) + "</div>\n"
+    )
+    raise nodes.SkipNode
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the renderer; ``html_math_renderer = "mathml"`` chooses it."""
+    app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
