@@ -1,4 +1,4 @@
-"""Pages of the dataclasses that check themselves: a field's meaning, unit, bounds and default, from the rule beside it."""
+"""Dataclasses that check themselves on their pages: each field's meaning, unit, bounds and default, from its rule."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Let links between files of the repository lead from page to page of the site as well.
 
-Pages are written for readers of the repository: their links name files. Those of docs are pages already. Others are pages
-where ``repository_pages`` of the configuration says which page shows a file; what is no page stays as text.
+Pages are written for readers of the repository: their links name files. Those of docs are pages already. Others are
+pages where ``repository_pages`` of the configuration says which page shows a file; what is no page stays as text.
 """
 
 from __future__ import annotations
