@@ -49,6 +49,7 @@ autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True}
 napoleon_google_docstring = False
+napoleon_use_ivar = True
 napoleon_use_rtype = False
 napoleon_preprocess_types = True
 napoleon_type_aliases = {name: f"rubfric.{name}" for name in rubfric.__all__ if not name.startswith("_")}
@@ -78,7 +79,7 @@ html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_use_index = True
-html_sidebars = {"index": [], "start": []}
+html_sidebars = {"index": [], "start": []}  # pages without a section of their own
 html_theme_options = {
     "logo": {"text": f"rubfric {release}"},
     "navbar_align": "left",

@@ -38,6 +38,13 @@ class WaveRoad:
     InvalidInput
         For waves without a period short enough, with the nearest wavenumbers that have one; for lists of different
         lengths; for any value outside its bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.WaveRoad([0.01, 0.004], [10.0, 35.0], [0.0, 1.0])
+    >>> print(f"the period of {road.period:.3f} mm holds the coarsest wave {road.period / road.wavelength:.0f} times")
+    the period of 1.257 mm holds the coarsest wave 2 times
     """
 
     amplitudes: Annotated[tuple[float, ...], Items("a_j.", Number(unit="mm", low=0.0), distinct=False, ascending=False)]

@@ -42,6 +42,14 @@ class Material:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> soft = rubfric.Material("soft", 2.5, 0.49, shear_fractions=[0.3, 0.6], relaxation_times=[1e-3, 1e-6])
+    >>> modulus = soft.complex_shear_modulus(1e5)  # at 1e5 rad/s
+    >>> print(f"{modulus.real:.1f} MPa, loss factor {modulus.imag / modulus.real:.2f}")
+    3.4 MPa, loss factor 0.15
     """
 
     name: Annotated[str, Word("Name of the rubber, which is part of paths.")]

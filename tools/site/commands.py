@@ -10,7 +10,7 @@ from typing import Any
 from rubfric.cli import _parser
 
 _PAGE = "reference/commands"
-_COLUMNS = "100"
+_COLUMNS = "96"
 
 
 def pages(parser: argparse.ArgumentParser) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from typing import Any
 
 from docutils import nodes
@@ -11,12 +12,14 @@ from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.util import logging
 
 _LOGGER = logging.getLogger(__name__)
+# Two digits after a fraction are its two parts, which the converter takes for one number.
+_DIGITS = re.compile(r"(\\[td]?frac)(\d)(\d)")
 
 
 def _render(node: nodes.Element, block: bool) -> str:
     """Return the MathML of an equation; what cannot be converted is a warning, and shown as it is written."""
     try:
-        return str(tex2mathml(node.astext(), as_block=block))
+        return str(tex2mathml(_DIGITS.sub(r"\1{\2}{\3}", node.astext()), as_block=block))
     except MathError as error:
         _LOGGER.warning("equation is no MathML: %s: %s", error, node.astext(), location=node)
         return f"<code>{html.escape(node.astext())}</code>"
