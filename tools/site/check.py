@@ -21,7 +21,7 @@ _LOADED = {
     ("source", "src"),
     ("object", "data"),
 }
-_STYLE_URL = re.compile(r"""(?:url\(|@import)\s*["']?([^"')\s;]+)""")
+_STYLE_URL = re.compile(r"""(?:url\(|@import\s+["'])\s*["']?([^"')\s;]+)""")
 # Links that say what a page is, and load nothing.
 _NAMED_ONLY = {"canonical", "license", "author"}
 
