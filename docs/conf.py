@@ -63,6 +63,8 @@ sphinx_gallery_conf = {
     "filename_pattern": r"/(plot|tutorial)_",
     "ignore_pattern": r"/_",
     "within_subsection_order": "order.ReadingOrder",
+    "backreferences_dir": "gallery/uses",
+    "doc_module": ("rubfric",),
     "abort_on_example_error": False,
     "download_all_examples": False,
     "min_reported_time": 1e9,
