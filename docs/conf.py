@@ -29,15 +29,19 @@ extensions = [
 # README.md is the list of these pages for readers of the repository.
 exclude_patterns = ["README.md", "gallery/*.py", "tutorials/*.py"]
 suppress_warnings = ["config.cache"]
-# Files elsewhere in the repository that a page shows.
+# Files elsewhere in the repository, or parts of them, that a page shows.
 repository_pages = {
-    "README.md": "start",
-    "docs/README.md": "index",
-    "config/README.md": "reference/config",
-    "CONTRIBUTING.md": "project/contributing",
-    "CHANGELOG.md": "project/changelog",
-    "examples/own_rubber/README.md": "guides/own_rubber",
-    "examples/own_road/README.md": "guides/own_road",
+    "README.md": "index.md",
+    "README.md#limits": "limits.md",
+    "docs/README.md": "index.md",
+    "config/README.md": "reference/config.md",
+    "examples/README.md": "gallery/index.rst",
+    "examples/own_rubber/README.md": "guides/own_rubber.md",
+    "examples/own_road/README.md": "guides/own_road.md",
+    "CONTRIBUTING.md": "project/contributing.md",
+    "CHANGELOG.md": "project/changelog.md",
+    "SUPPORT.md": "project/support.md",
+    "CODE_OF_CONDUCT.md": "project/conduct.md",
 }
 
 myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]

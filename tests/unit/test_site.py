@@ -36,7 +36,7 @@ def test_links_between_files_lead_to_pages(tmp_path: Path) -> None:
         "[a](rubber.md#fit), [b](../config/README.md#grid), [c](../workflow/Snakefile), [d](https://doi.org/1), [e](#f)"
     )
     docs = tmp_path / "docs"
-    found = import_module("links").resolved(text, docs / "theory.md", docs, {"config/README.md": "reference/config"})
+    found = import_module("links").resolved(text, docs / "theory.md", docs, {"config/README.md": "reference/config.md"})
     assert found == "[a](/rubber.md#fit), [b](/reference/config.md#grid), c, [d](https://doi.org/1), [e](#f)"
 
 

@@ -28,7 +28,7 @@ def resolved(text: str, source: Path, docs: Path, pages: dict[str, str]) -> str:
     source, docs : Path
         The file, and the folder of the pages.
     pages : dict of str to str
-        Page of each file outside that folder that has one.
+        Page of each file outside that folder, or of its part after ``#``, that has one.
     """
     root = docs.parent
 
@@ -38,8 +38,10 @@ def resolved(text: str, source: Path, docs: Path, pages: dict[str, str]) -> str:
             return link[0]
         path = Path(os.path.normpath(source.parent / target))
         name = path.relative_to(root).as_posix()
+        if name + fragment in pages:
+            return f"[{shown}](/{pages[name + fragment]})"
         if name in pages:
-            return f"[{shown}](/{pages[name]}.md{fragment})"
+            return f"[{shown}](/{pages[name]}{fragment})"
         if not path.exists():
             _LOGGER.warning("%s links to %s, which does not exist", source.relative_to(root), target)
         if path.is_relative_to(docs) and path.suffix:
