@@ -84,8 +84,10 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
-html_use_index = True
-html_sidebars = {"index": [], "start": []}  # pages without a section of their own
+# A summary of each page found is fetched, which browsers allow from a server only: the site is read from a folder.
+html_show_search_summary = False
+html_context = {"default_mode": "auto"}
+html_sidebars = {"index": [], "start": []}
 html_theme_options = {
     "logo": {"text": f"rubfric {release}"},
     "navbar_align": "left",
