@@ -27,8 +27,7 @@ extensions = [
     "fields",
 ]
 # README.md is the list of these pages for readers of the repository.
-exclude_patterns = ["README.md", "gallery/*.py", "tutorials/*.py"]
-suppress_warnings = ["config.cache"]
+exclude_patterns = ["README.md"]
 # Files elsewhere in the repository, or parts of them, that a page shows.
 repository_pages = {
     "README.md": "index.md",
@@ -44,7 +43,7 @@ repository_pages = {
     "CODE_OF_CONDUCT.md": "project/conduct.md",
 }
 
-myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_fence_as_directive = ["math"]
 myst_heading_anchors = 4
 html_math_renderer = "mathml"
@@ -69,12 +68,8 @@ sphinx_gallery_conf = {
     "within_subsection_order": "order.ReadingOrder",
     "backreferences_dir": "gallery/uses",
     "doc_module": ("rubfric",),
-    "abort_on_example_error": False,
     "download_all_examples": False,
-    "min_reported_time": 1e9,
     "show_signature": False,
-    "remove_config_comments": True,
-    "copyfile_regex": r".*\.(csv|yaml)",
     "write_computation_times": False,
 }
 
