@@ -44,6 +44,7 @@ repository_pages = {
 }
 
 myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_disable_syntax = ["myst_line_comment"]  # a line may begin with a per cent sign
 myst_fence_as_directive = ["math"]
 myst_heading_anchors = 4
 html_math_renderer = "mathml"
