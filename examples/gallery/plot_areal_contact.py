@@ -48,7 +48,7 @@ for ax, (pressure, result) in zip(panels, results.items(), strict=True):
     contact = 100 * float(result.contact_fraction)
     ax.set(aspect="equal", xlabel="x (mm)")
     ax.set_title(
-        f"{pressure:g} MPa: {friction:.3f} ± {error:.3f}, contact {contact:.1f} %",
+        f"{pressure:g} MPa: μ = {friction:.3f} ± {error:.3f}, contact {contact:.1f} %",
         fontsize="medium",
     )
 panels[0].set(ylabel="y (mm)")
