@@ -144,6 +144,16 @@ def _after(value: float, digits: int) -> int:
     return max(0, digits - 1 - int(f"{value:.{digits - 1}e}".partition("e")[2]))
 
 
+def value_and_error(value: float, error: float) -> str:
+    """Return a value with its absolute error, as far as two digits of the error go."""
+    if math.isnan(value):
+        return ""
+    if not _PLAIN[0] * 1e-3 < error < math.inf:
+        return _shown(float(value), None)
+    decimals = _after(error, _ERROR_DIGITS)
+    return f"{_shown(float(value), decimals)} ± {error:.{decimals}f}"
+
+
 def _column_texts(values: pd.Series, decimals: Sequence[int | None] | None) -> list[str]:
     """Return the values of a column as the page shows them, decimal points below one another."""
     places = decimals or [None] * len(values)
