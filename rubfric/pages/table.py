@@ -30,7 +30,8 @@ _GROUPS = (
     (r"friction_(sum|direct|corrected|cascade|persson)", "by every way", r"\1"),
     (r"friction_scale_(\d+)", "each scale by itself", r"scale \1"),
     (r"nominal_compression", "block", ""),
-    (r"refused|warnings|note", "to know", ""),
+    (r"friction_total_ci95", "whole road", "half of the 95 % interval"),
+    (r"refused|warnings|note|draws|not_covered", "to know", ""),
     (r"friction_coefficient", "friction", "from stress power"),
     (r"friction_coefficient_error", "friction", "error"),
     (r"friction_coefficient_rubber_error", "friction", "error from the rubber's data"),
@@ -89,7 +90,7 @@ def table_cells(table: pd.DataFrame, group: str | None = None) -> dict[str, Any]
     groups = table[group].tolist() if group else [None] * len(table)
     decimals = _decimals(table)
     texts = {str(name): _column_texts(table[name], decimals.get(str(name))) for name in table.columns}
-    named = len({_of_group(name)[0] for name in texts if name not in _AXES}) > 1
+    named = all(_of_group(name)[0] for name in texts if name not in _AXES)  # else headings are those of the file
     columns = [_column(name, cells, table[name].dtype.kind in "OTSU", named) for name, cells in texts.items()]
     rows = [
         {"cells": cells, "begins_group": place > 0 and groups[place] != groups[place - 1]}
@@ -100,7 +101,13 @@ def table_cells(table: pd.DataFrame, group: str | None = None) -> dict[str, Any]
     while len(frozen) <= heads and frozen[-1] + columns[len(frozen) - 1].width <= _FROZEN:
         frozen.append(frozen[-1] + columns[len(frozen) - 1].width)
     spans = [(name, len(list(run))) for name, run in groupby(column.group for column in columns)]
-    return {"columns": columns, "rows": rows, "heads": heads, "frozen": frozen[:-1], "spans": spans if named else []}
+    return {
+        "columns": columns,
+        "rows": rows,
+        "heads": heads,
+        "frozen": frozen[:-1],
+        "spans": spans if len(spans) > 1 else [],
+    }
 
 
 def _of_group(name: str) -> tuple[str, str]:
