@@ -33,7 +33,7 @@ class Cells(HTMLParser):
             self.rows[-1].append("")
 
     def handle_data(self, data: str) -> None:
-        if self.rows and self.rows[-1] and self.tags[-1] in ("td", "th", "small", "br", "span"):
+        if self.rows and self.rows[-1] and self.tags[-1] in ("td", "th", "small", "br", "span", "b"):
             self.rows[-1][-1] += data.strip("\n\N{FIGURE SPACE}\N{PUNCTUATION SPACE}")
 
 
