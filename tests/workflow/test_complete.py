@@ -104,9 +104,10 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     made = f": {counts}, 5 tables, 10 figures, 7 other jobs"
     assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
-    assert lines[end + 2].startswith("  largest estimated error of friction ")
-    assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
-    assert lines[end + 4].startswith("  largest error of the whole road's friction ")
+    assert lines[end + 2].startswith("  CPU time behind these results ")
+    assert lines[end + 3].startswith("  largest estimated error of friction ")
+    assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 4])
+    assert lines[end + 5].startswith("  largest error of the whole road's friction ")
     assert lines[-1].startswith("  open first: results/minimal/index.html, results/minimal/claims.html, ")
     assert end < 60
 
@@ -116,7 +117,7 @@ def test_pages_lead_to_what_there_is_and_the_first_to_all(template: Project) -> 
     linked = {(template.results / unquote(link)).resolve() for link in Page(template.results / "index.html").links}
     shown = [
         *template.results.glob("*.html"),
-        *template.results.glob("tables/*.*"),
+        *template.results.glob("tables/[!.]*"),
         *template.results.glob("figures/*"),
     ]
     assert {path.resolve() for path in shown} - linked == {(template.results / "index.html").resolve()}
