@@ -144,9 +144,11 @@ def _figure(base: Path, name: str, words: str) -> dict[str, Any]:
     number = name.removeprefix("fig")
     picture = base / "figures" / f"{name}.png"
     width, height = _size(picture)
+    label = f"Fig. {number}" if number.isdigit() else ""
     return {
-        "name": f"Fig. {number}" if number.isdigit() else "",
+        "name": label,
         "words": sentence(words),
+        "title": f"{label} {sentence(words)}".strip(),
         "seen": _SEEN.get(name) or _SEEN.get(name.partition("_")[0], ""),
         "png": _address(base, picture),
         "pdf": _address(base, picture.with_suffix(".pdf")),

@@ -73,7 +73,7 @@ def table_page(
     group : str, optional
         A column; a line is drawn where its value changes.
     csv, home : str
-        Links to the table as CSV and to the page of all results, relative to this page; none where they are empty.
+        Links to the table as CSV and to the page of all results, relative to this page; none where ``home`` is empty.
     """
     return render("table.html", title=title, words=words, csv=csv, home=home, **table_cells(table, group))
 

@@ -121,6 +121,10 @@ IN_GROUPS = {
 # Beside these, what no job makes, or not by default.
 BESIDE = {
     "Logs and other pages": [
+        (
+            "report: figures and tables with captions",
+            {"page": f"{RESULTS}/report.html"},
+        ),
         ("log of the runs", {"text": f"{RESULTS}/logs/run.log"}),
         ("a log for each job", {"folder": f"{RESULTS}/logs"}),
         ("fields of every scene", {"folder": f"{RESULTS}/scenes"}),
