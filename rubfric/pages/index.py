@@ -133,10 +133,12 @@ def _friction(table: pd.DataFrame) -> dict[str, Any]:
     return {"pressures": [written(one) for one in pressures], "rows": rows}
 
 
-def _cell(row: pd.Series | None) -> tuple[str, bool]:
+def _cell(row: pd.Series | None) -> tuple[str, str, bool]:
+    """Return friction, its error, and whether a scene carries a warning."""
     if row is None:
-        return "", False
-    return value_and_error(row[TOTAL[0]], row[TOTAL[1]]), bool(row[WARNINGS] > 0)
+        return "", "", False
+    value, _, error = value_and_error(row[TOTAL[0]], row[TOTAL[1]]).partition(" ± ")
+    return value, error, bool(row[WARNINGS] > 0)
 
 
 def _figure(base: Path, name: str, words: str) -> dict[str, Any]:
