@@ -16,7 +16,7 @@ import rubfric
 from rubfric.checks import written
 from rubfric.pages.render import render, sentence
 from rubfric.pages.table import value_and_error
-from rubfric.results.scales import AXES, TOTAL
+from rubfric.results.scales import AXES, TOTAL, WORDS
 from rubfric.results.selection import WARNINGS
 from rubfric.results.temperature import COLUMN, rows_at
 
@@ -111,7 +111,7 @@ def _facts(table: pd.DataFrame) -> Iterable[tuple[str, str, str]]:
         yield f"{what} friction", value_and_error(row[TOTAL[0]], row[TOTAL[1]]), _where(row)
     share = (error / friction.abs())[friction != 0.0]
     if share.notna().any():
-        yield "largest error", f"{100.0 * share.max():.2g} %", f"{_where(table.loc[share.idxmax()])}"
+        yield "largest error", f"{100.0 * share.max():.2g} %", _where(table.loc[share.idxmax()])
     warned, refused = int((table[WARNINGS] > 0).sum()), int((table["refused"] > 0).sum())
     yield "with a warning", f"{warned} of {len(table)}", "points of speed and pressure"
     if refused:
@@ -119,7 +119,7 @@ def _facts(table: pd.DataFrame) -> Iterable[tuple[str, str, str]]:
 
 
 def _where(row: pd.Series) -> str:
-    return f"at {written(row[AXES[0]])} mm/s, {written(row[AXES[1]])} MPa"
+    return f"at {written(row[AXES[0]])} mm/s, {written(row[AXES[1]])} MPa ({row[WORDS[0]]})"
 
 
 def _friction(table: pd.DataFrame) -> dict[str, Any]:
