@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from rubfric.dma.bootstrap import Bands
 from rubfric.dma.laws import LN10, law_of
 from rubfric.dma.result import Fit
+from rubfric.figures.scaling import plain
 from rubfric.figures.style import COLUMN, applied, colours
-from rubfric.figures.temperature import signed
 
 # Height of a figure, inches, and opacity of bands.
 _HEIGHT, _OPACITY = 2.75, 0.25
@@ -59,7 +59,7 @@ def _series(fit: Fit) -> Iterator[tuple[np.ndarray, Any, str]]:
     named = set(np.linspace(0, count - 1, min(count, _MOST)).round().astype(int).tolist())
     for place, colour in enumerate(colours(count)):
         own = fit.data.isotherm == place
-        label = f"{signed(round(float(fit.data.temperatures[place]), 1))} °C" if count > 1 and place in named else ""
+        label = f"{plain(round(float(fit.data.temperatures[place]), 1))} °C" if count > 1 and place in named else ""
         yield own, colour, label
 
 

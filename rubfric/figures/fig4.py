@@ -18,6 +18,7 @@ from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, draw_block, 
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, wavelength
 from rubfric.figures.note import note_below
 from rubfric.figures.panels import letter
+from rubfric.figures.scaling import plain
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 from rubfric.results.selection import written
 
@@ -154,7 +155,7 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
         panel.set(xlim=(window.left, window.right), ylim=(window.bottom, window.top))
         for axis in (panel.xaxis, panel.yaxis):
             axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
         panel.label_outer()
     return figure, list(panels.flat)
 

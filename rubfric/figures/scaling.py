@@ -68,8 +68,9 @@ def scale_decades(axes: Axes, low: float, high: float) -> None:
 
 
 def plain(value: float) -> str:
-    """Return a number as a tick has it: where it needs an exponent, with a minus sign in that."""
+    """Return a number as figures have it: with minus signs and no hyphens, and a power of ten where it needs one."""
     mantissa, _, exponent = written(value).partition("e")
+    mantissa = mantissa.replace("-", "\N{MINUS SIGN}")
     if not exponent:
         return mantissa
     power = f"10^{{{int(exponent)}}}"

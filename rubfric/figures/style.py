@@ -13,10 +13,12 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
+from rubfric.palette import scale_colour
 from rubfric.results.selection import written
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.
@@ -36,8 +38,6 @@ RC_PARAMS: dict[str, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.axisbelow": True,
-    # Within Latin-1, a PDF needs one font only.
-    "axes.unicode_minus": False,
     "xtick.labelsize": 6.5,
     "ytick.labelsize": 6.5,
     "xtick.major.width": 0.6,
@@ -140,6 +140,17 @@ def kinds(count: int) -> list[dict[str, Any]]:
 def dashes(count: int) -> list[Any]:
     """Return the dashes of each of some lines; they repeat after five."""
     return [_DASHES[place % len(_DASHES)] for place in range(count)]
+
+
+def scale_look(scale: int) -> dict[str, Any]:
+    """Return the colour and marker of a scale, as keywords of ``Axes.plot``; 1 has the longest wave."""
+    return {"color": scale_colour(scale), "marker": _MARKERS[(scale - 1) % len(_MARKERS)]}
+
+
+def scale_area(scale: int) -> dict[str, Any]:
+    """Return how the area of a scale is filled: its colour mixed with white, and hatched, so that lines show on it."""
+    tint = tuple(0.45 * np.asarray(to_rgb(scale_colour(scale))) + 0.55)
+    return {"facecolor": tint, "edgecolor": "0.15", "hatch": HATCHES[(scale - 1) % len(HATCHES)], "linewidth": 0.5}
 
 
 def percent(share: float) -> str:

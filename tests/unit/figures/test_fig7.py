@@ -61,7 +61,7 @@ def test_shares_add_up_to_the_sum(make_campaign: Maker, draw: Drawer) -> None:
     friction = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0)
     np.testing.assert_allclose(total, friction.sum("scale").values, rtol=1e-12)
     shares = areas(panel)
-    assert list(shares) == ["scale 4", "scale 3", "scale 2", "scale 1"]
+    assert list(shares) == ["scale 1", "scale 2", "scale 3", "scale 4"]
     for place, speed in enumerate(speeds):
         stacked = {name: thickness(corners, speed) for name, (corners,) in shares.items()}
         for scale in (1, 2, 3, 4):
@@ -97,14 +97,17 @@ def test_total_is_all_scales_at_once_with_its_band_and_peak(
     assert ring.get_xdata()[0] == speeds[np.argmax(total)]
     assert ring.get_ydata()[0] == pytest.approx(total.max())
     said = words(figure)
-    assert "total: all scales at once,\none road, these phases" in said
-    assert "estimated error,\nat most 1.5\N{NO-BREAK SPACE}%" in said
+    assert [one for one in said if one.startswith("Scale")] == [
+        f"Scale {scale}, {wavelength} mm" for scale, wavelength in enumerate(("0.2", "0.1", "0.05", "0.025"), 1)
+    ]
+    assert "Total: all scales at once,\none road, these phases" in said
+    assert "Estimated error at most 1.5\N{NO-BREAK SPACE}%: too small for bands to be seen." in said
 
 
 def test_mean_over_random_phases_is_called_so(
     make_campaign: Maker, draw: Drawer, words: Callable[..., list[str]]
 ) -> None:
-    assert "total: all scales at once,\nmean of random phases" in words(draw(make_campaign(), drawn=True))
+    assert "Total: all scales at once,\nmean of random phases" in words(draw(make_campaign(), drawn=True))
 
 
 def test_refused_points_are_open_with_their_whole_error(
@@ -126,7 +129,7 @@ def test_refused_points_are_open_with_their_whole_error(
     assert points.get_ydata() == pytest.approx([summed])
     (bar,) = (one for one in panel.collections if isinstance(one, LineCollection) and one.get_gid() is None)
     assert bar.get_segments()[0][:, 1] == pytest.approx([0.6 * summed, 1.4 * summed])
-    assert "not solved: sum of the scales,\nwith all of its error" in words(figure)
+    assert "Not solved: sum of the\nscales, with all of its\nerror" in words(figure)
     assert panel.get_ylim()[1] > 1.4 * summed
     assert overlaps(figure) == []
 
@@ -137,8 +140,8 @@ def test_total_that_is_the_sum_says_so(
     campaign = make_campaign()
     table = make_totals(campaign, refused=list(product(campaign["pressure"].values, campaign["velocity"].values)))
     said = words(fig7.draw(campaign, table, 0.75, 5.0))
-    assert "total: sum of the scales,\none road, these phases" in said
-    assert not any("not solved" in one for one in said)
+    assert "Total: sum of the scales,\none road, these phases" in said
+    assert not any("Not solved" in one for one in said)
 
 
 def test_table_that_lacks_something_is_refused(make_campaign: Maker, make_totals: TableMaker) -> None:
@@ -162,7 +165,7 @@ def test_gap_is_bridged_by_no_area(make_campaign: Maker, draw: Drawer, tmp_path:
 def test_speed_without_neighbours_is_a_bar(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
     campaign = make_campaign(speeds=(10.0,))
     figure = draw(campaign)
-    for scale, (corners,) in zip((4, 3, 2, 1), areas(figure.axes[0]).values(), strict=True):
+    for scale, (corners,) in zip((1, 2, 3, 4), areas(figure.axes[0]).values(), strict=True):
         assert corners[:, 0].min() < 10.0 < corners[:, 0].max()
         share = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0, scale=scale).item()
         assert thickness(corners, corners[0, 0]) == pytest.approx(share)
