@@ -23,7 +23,7 @@ _MOST_COLUMNS = 3
 # The height of a line of a legend, in inches, and the size of type of a note, points.
 _LEGEND_LINE, _NOTE_TYPE = 0.13, 6.0
 # Letters of a note to an inch.
-_LETTERS = 19.0
+_LETTERS = 21.5
 
 
 def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Figure, list[Axes]]:
@@ -108,7 +108,7 @@ def scale_words(campaign: xr.Dataset, scale: int) -> str:
     scale : int
     """
     wavelength = 2.0 * np.pi / float(campaign["wavenumber"].sel(scale=scale))
-    return f"Scale {scale}, {plain(float(f'{wavelength:.3g}'))} mm"
+    return f"Scale {scale}, {plain(wavelength, 3)} mm"
 
 
 def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:

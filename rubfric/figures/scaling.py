@@ -67,9 +67,16 @@ def scale_decades(axes: Axes, low: float, high: float) -> None:
     tick_decades(axes.yaxis, low, high)
 
 
-def plain(value: float) -> str:
-    """Return a number as figures have it: with minus signs and no hyphens, and a power of ten where it needs one."""
-    mantissa, _, exponent = written(value).partition("e")
+def plain(value: float, digits: int = 12) -> str:
+    """Return a number as figures have it: with minus signs and no hyphens, and a power of ten where it needs one.
+
+    Parameters
+    ----------
+    value : float
+    digits : int
+        Significant ones at most.
+    """
+    mantissa, _, exponent = written(float(f"{value:.{digits}g}")).partition("e")
     mantissa = mantissa.replace("-", "\N{MINUS SIGN}")
     if not exponent:
         return mantissa

@@ -26,7 +26,7 @@ def test_rows_of_pressures_and_columns_of_speeds(results: list[xr.Dataset]) -> N
     *panels, bar = figure.axes
     assert len(panels) == 6
     assert [panel.get_title() for panel in panels[:3]] == ["1 mm/s", "100 mm/s", "10\N{NO-BREAK SPACE}000 mm/s"]
-    assert bar.get_ylabel() == "strain-energy density (MPa)"
+    assert bar.get_ylabel() == "Strain-energy density (MPa)"
     rows = sorted({round(panel.get_position().y0, 6) for panel in panels})
     assert len(rows) == 2
 
