@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from scipy.special import erfinv
 
 from rubfric.errors import InvalidInput
@@ -20,6 +21,12 @@ from rubfric.figures.scaling import plain, scale_speeds, tick_decades
 _HEIGHTS = (2.1, 2.2, 2.2)
 # Bins of pressure in a factor of ten.
 _BINS = 8
+# What lines in the middle are.
+_THEORIES: dict[str, dict[str, Any]] = {
+    "persson": {"linestyle": "-", "label": "Persson 2001"},
+    "persson reduced": {"linestyle": ":", "label": "Persson 2006"},
+    "plane": {"linestyle": "--", "label": "Profiles, plane model"},
+}
 _ROAD, _PRESSURE = "Greys_r", "plasma"
 _LINES = (
     (
@@ -79,7 +86,7 @@ def draw(
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel("Sliding speed (mm/s)")
         axes.set_ylabel(names[-1])
-    axes.legend(title="Pressure", loc="best")
+    axes.legend(handles=[*axes.get_legend_handles_labels()[0], *_line_handles(lower)], loc="best")
     cut_off, pressures = lowest.subplots(1, 2)
     for look, result in zip(style.lines(len(maps)), maps, strict=True):
         _draw_wavelengths(cut_off, result, look["color"])
@@ -97,6 +104,12 @@ def draw(
     pressures.set_ylabel("Share of contact area\nper unit of its logarithm")
     cut_off.legend(loc="best")
     return figure
+
+
+def _line_handles(figure: Any) -> list[Line2D]:
+    """Return the legend's entries for the lines that are there."""
+    drawn = {str(line.get_gid()) for axes in figure.axes for line in axes.get_lines()}
+    return [Line2D([], [], color="0.3", **look) for gid, look in _THEORIES.items() if gid in drawn]
 
 
 def _draw_wavelengths(axes: Axes, result: xr.Dataset, colour: str) -> None:
@@ -131,7 +144,8 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
     largest = max(
         float(np.quantile(one.contact_pressure.values[one.contact_pressure.values > 0.0], 0.98)) for one in maps
     )
-    norm = LogNorm(min(float(one.attrs["pressure"]) for one in maps), largest)
+    interval = min(float(one.attrs["pressure"]) for one in maps), largest
+    norm = LogNorm(*interval)
     for axes, result in zip(panels, maps, strict=True):
         spacing = [float(result[name][1] - result[name][0]) for name in ("x", "y")]
         extent = (0.0, spacing[0] * result.sizes["x"], 0.0, spacing[1] * result.sizes["y"])
@@ -145,7 +159,8 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
         axes.set_xlabel("$x$ (mm)")
         axes.label_outer()
     panels[0].set_ylabel("$y$ (mm)")
-    figure.colorbar(image, ax=list(panels), label="Contact pressure (MPa)", extend="both", shrink=0.7)
+    bar = figure.colorbar(image, ax=list(panels), label="Contact pressure (MPa)", extend="both", shrink=0.7)
+    tick_decades(bar.ax.yaxis, *interval)
 
 
 def _draw_curve(axes: Axes, results: Sequence[xr.Dataset], names: tuple[str, ...], look: dict[str, Any]) -> None:

@@ -197,4 +197,4 @@ def _note(figure: Figure, points: pd.DataFrame, shown: Flags) -> None:
     note = f"Points within {percent:.0f} % of the pressure, or speed, of a line"
     hidden = int(np.count_nonzero(~shown))
     note += f"; {hidden} of {len(points)} lie at others and are not drawn." if hidden else "."
-    figure.supxlabel(note if len(points) else "No point could be measured.", fontsize=6.0, color="0.3")
+    panels.write_note(figure, [note if len(points) else "No point could be measured."])

@@ -197,7 +197,8 @@ def _entitle(large: Axes, small: Sequence[Axes], ladders: Mapping[str, Ladder]) 
     if small:
         large.set_title(f"{panels.letter(0)} All knobs", loc="left")
     for place, (panel, (knob, ladder)) in enumerate(zip(small, ladders.items(), strict=True), start=1):
-        heading = [f"{panels.letter(place)} {_words(knob)}", *textwrap.wrap(", ".join(ladder.rungs), _RUNGS_WIDTH)]
+        rungs = ", ".join(ladder.rungs).replace("e-", "e\N{MINUS SIGN}")
+        heading = [f"{panels.letter(place)} {_words(knob)}", *textwrap.wrap(rungs, _RUNGS_WIDTH)]
         panel.set_title("\n".join(heading), fontsize=_SMALL_TYPE, loc="left", linespacing=1.15)
 
 
