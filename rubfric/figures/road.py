@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rubfric.figures.scaling import plain
+from rubfric.figures.scaling import plain, tick_decades
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN, applied
 from rubfric.profile.analysis import Analysis
 from rubfric.profile.depth import SEGMENT, low_passed
@@ -134,6 +134,8 @@ def _spectrum(found: Analysis) -> Figure:
     panel.axvline(2.0 * math.pi / found.cutoff, color=_REMOVED, lw=0.8, linestyle=":", label="Cutoff")
     upper = panel.secondary_xaxis("top", functions=(_wavelength, _wavelength))
     upper.set_xlabel("Wavelength (mm)")
+    for axis in (panel.xaxis, upper.xaxis):
+        tick_decades(axis, *sorted(axis.get_view_interval()))
     _legend(panel, loc="lower left")
     return figure
 

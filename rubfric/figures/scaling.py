@@ -94,7 +94,7 @@ def tick_decades(axis: Axis, low: float, high: float) -> None:
         Its limits, positive.
     """
     decades = np.log10(high / low)
-    between = (1.0,) if decades > 4.0 else (1.0, 2.0, 5.0) if decades > 0.8 else tuple(np.arange(1.0, 10.0))
+    between = (1.0,) if decades > 3.5 else (1.0, 2.0, 5.0) if decades > 0.8 else tuple(np.arange(1.0, 10.0))
     axis.set_major_locator(LogLocator(10.0, subs=between, numticks=25))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))

@@ -142,13 +142,8 @@ def dashes(count: int) -> list[Any]:
     return [_DASHES[place % len(_DASHES)] for place in range(count)]
 
 
-def scale_look(scale: int) -> dict[str, Any]:
-    """Return the colour and marker of a scale, as keywords of ``Axes.plot``; 1 has the longest wave."""
-    return {"color": scale_colour(scale), "marker": _MARKERS[(scale - 1) % len(_MARKERS)]}
-
-
 def scale_area(scale: int) -> dict[str, Any]:
-    """Return how the area of a scale is filled: its colour mixed with white, and hatched, so that lines show on it."""
+    """Return how the area of a scale is filled, 1 having the longest wave: its colour mixed with white, and hatched."""
     tint = tuple(0.45 * np.asarray(to_rgb(scale_colour(scale))) + 0.55)
     return {"facecolor": tint, "edgecolor": "0.15", "hatch": HATCHES[(scale - 1) % len(HATCHES)], "linewidth": 0.5}
 

@@ -120,6 +120,18 @@ def test_small_strain_among_finite_keeps_its_height_and_has_no_net(
     assert "In small strain (a) only vertical displacements" in said
 
 
+@pytest.mark.parametrize(
+    ("warned", "said"), [((), ""), ((2,), "Panel c carries a warning."), ((0, 1, 2), "Panels a to c carry a warning.")]
+)
+def test_scenes_that_carry_a_warning_are_named(make_result: Maker, warned: tuple[int, ...], said: str) -> None:
+    results = [make_result(1.0, speed) for speed in (1.0, 10.0, 100.0)]
+    for place in warned:
+        results[place].attrs["warnings"] = "It was fast."
+    note = fig4.draw(results).texts[-1].get_text().replace("\n", " ")
+    assert ("warning" in note) == bool(warned)
+    assert said in note
+
+
 @pytest.mark.parametrize("kinds", [("small", "small"), ("finite", "finite"), ("small", "finite"), ("finite",)])
 @pytest.mark.parametrize("speeds", [(10.0,), (1.0, 100.0), (0.1, 1.0, 10.0, 100.0, 500.0, 1000.0, 10000.0)])
 def test_nothing_is_written_over_anything_else(

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -115,6 +116,15 @@ def test_every_value_lies_within_the_axes() -> None:
     assert by_step.get_xlim()[1] > STARTING + 30 * PER_WAVELENGTH
     assert by_distance.get_xlim()[1] > 30.25
     assert [len(marks(panel, "zero")) for panel in figure.axes] == [1, int(means.min() < 0.0)]
+
+
+def test_negative_numbers_have_minus_signs_and_no_hyphens(words: Callable[..., list[str]], tmp_path: Path) -> None:
+    figure = fig5.draw(three())
+    style.save(figure, tmp_path / "fig5.pdf")
+    numbers = [one for one in words(figure) if re.match(r"[-\N{MINUS SIGN}]\d", one)]
+    assert numbers
+    assert all(one.startswith("\N{MINUS SIGN}") for one in numbers)
+    assert b"/Type3" not in (tmp_path / "fig5.pdf").read_bytes()
 
 
 def test_a_start_from_steady_sliding(series: Callable[..., Any]) -> None:

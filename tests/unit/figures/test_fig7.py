@@ -11,12 +11,14 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig7, style
 from rubfric.figures.bands import bands
 from rubfric.figures.peaks import rings
+from rubfric.palette import scale_colour
 
 Maker = Callable[..., xr.Dataset]
 TableMaker = Callable[..., pd.DataFrame]
@@ -151,6 +153,29 @@ def test_table_that_lacks_something_is_refused(make_campaign: Maker, make_totals
         fig7.draw(campaign, table.drop(columns="friction_direct"), 0.75, 5.0)
     with pytest.raises(InvalidInput, match=r"^the table of totals has no pressure 5 MPa, but 0\.5, 1 MPa$"):
         fig7.draw(campaign, table[table["pressure_MPa"] < 5.0], 0.75, 5.0)
+
+
+def test_totals_that_carry_a_warning_are_marked(
+    make_campaign: Maker, make_totals: TableMaker, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign)
+    table["warnings"] = np.where(table["velocity_mm_per_s"] == 100.0, 2, 0)
+    figure = fig7.draw(campaign, table, 0.75, 5.0)
+    speeds, totals = line(figure.axes[0], "warned")
+    assert list(speeds) == [100.0]
+    total = table.loc[(table["velocity_mm_per_s"] == 100.0) & (table["pressure_MPa"] == 5.0), "friction_total"]
+    assert list(totals) == list(total)
+    assert words(figure).count("Carries a warning") == 1
+    assert "Carries a warning" not in words(fig7.draw(campaign, table.assign(warnings=0), 0.75, 5.0))
+
+
+def test_scales_have_the_colours_of_the_explorer(make_campaign: Maker, draw: Drawer) -> None:
+    # Of a campaign without scale 2 the others keep theirs.
+    (panel,) = draw(make_campaign(scales=(1, 3))).axes
+    found = {str(area.get_gid()): area.get_facecolor()[0][:3] for area in panel.collections if area.get_gid()}
+    for scale in (1, 3):
+        np.testing.assert_allclose(found[f"scale {scale}"], 0.45 * np.array(to_rgb(scale_colour(scale))) + 0.55)
 
 
 def test_gap_is_bridged_by_no_area(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
