@@ -251,7 +251,8 @@ def _inscribe(panel: Axes, result: xr.Dataset, mark: str, sheet: _Sheet) -> None
     friction, error = (float(result[f"friction_coefficient{part}"]) for part in ("", "_error"))
     contact = 100.0 * float(result["contact_fraction"])
     share = f"{contact:.0f}" if contact >= 1.95 else f"{contact:.1f}"
-    words = f"{mark}\N{GREEK SMALL LETTER MU} = {_measured(friction, error)}, contact {share} %"
+    measured = _measured(friction, error).replace("-", "\N{MINUS SIGN}")
+    words = f"{mark}\N{GREEK SMALL LETTER MU} = {measured}, contact {share} %"
     panel.text(s=words, **corner)
 
 

@@ -17,8 +17,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
+from rubfric.figures.palette import scale_colour
 from rubfric.files import whole
-from rubfric.palette import scale_colour
 from rubfric.results.selection import written
 
 # Widths of a journal page, in inches as matplotlib wants them: 88 mm and 180 mm.

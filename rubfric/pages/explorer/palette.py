@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from plotly import colors
 
-from rubfric.palette import scale_colour
+from rubfric.figures.palette import scale_colour
 
 # Ordered curves run over the same part of the same map as in the figures: its lightest quarter is too pale on white.
 _ORDERED, _LIGHTEST = "Plasma", 0.76

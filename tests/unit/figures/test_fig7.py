@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig7, style
 from rubfric.figures.bands import bands
+from rubfric.figures.palette import scale_colour
 from rubfric.figures.peaks import rings
-from rubfric.palette import scale_colour
 
 Maker = Callable[..., xr.Dataset]
 TableMaker = Callable[..., pd.DataFrame]
