@@ -30,7 +30,10 @@ def make_campaign(
     error = friction * 0.002 * np.arange(1.0, len(speeds) + 1.0)[:, None, None]
     fields = {"friction_coefficient": friction, "friction_coefficient_error": error}
     fields["warnings"] = np.where(speed >= WARNED, 1.0, 0.0)
-    return xr.Dataset({name: (tuple(axes), field) for name, field in fields.items()}, coords=axes)
+    variables: dict[str, object] = {name: (tuple(axes), field) for name, field in fields.items()}
+    # Wavelengths of 0.2 mm, 0.1 mm, and so on.
+    variables["wavenumber"] = ("scale", 2.0 * np.pi / 0.2 * 2.0 ** (np.array(scales) - 1.0))
+    return xr.Dataset(variables, coords=axes)
 
 
 def make_totals(
