@@ -21,7 +21,7 @@ from rubfric.scene.scene import ALL
 if TYPE_CHECKING:  # heavy
     import pandas as pd
 
-    from rubfric.studies.sensitivity.study import Sensitivities
+    from rubfric.studies.sensitivity.result import Sensitivities
 
 _EXAMPLE = """\
 examples:
@@ -189,7 +189,7 @@ def _others(held: str) -> str:
 
 
 def _columns(table: pd.DataFrame, share: str) -> list[str]:
-    from rubfric.studies.sensitivity.study import with_error
+    from rubfric.studies.sensitivity.result import with_error
 
     rows = [["x", "value", "unit", "d ln mu / d ln x", "error", "changed to", f"friction, {share} more"]]
     for row in table.to_dict("records"):
