@@ -16,6 +16,7 @@ from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput
+from rubfric.rules import Number
 from rubfric.scene.scene import ALL
 
 if TYPE_CHECKING:  # heavy
@@ -88,11 +89,13 @@ def _sensitivity(options: argparse.Namespace) -> int:
         *([{"kinematics": options.kinematics}] if options.kinematics else []),
     ]
     campaign = campaigns.load(*given)
-    scale = int(options.scale) if options.scale.isdecimal() else options.scale
+    if options.scale != ALL and not options.scale.isdecimal():
+        raise InvalidInput(f"--scale is {options.scale!r}, but must be the number of a scale, or {ALL}")
+    scale = ALL if options.scale == ALL else int(options.scale)
     points = [
         (velocity, pressure)
-        for velocity in _numbers("--velocity", options.velocity)
-        for pressure in _numbers("--pressure", options.pressure)
+        for velocity in _numbers("velocity", "mm/s", options.velocity)
+        for pressure in _numbers("pressure", "MPa", options.pressure)
     ]
     change = _share(options.range)
     if options.output and len(points) > 1:
@@ -137,13 +140,14 @@ def _sensitivity(options: argparse.Namespace) -> int:
     return 0
 
 
-def _numbers(option: str, text: str | None) -> list[float | None]:
+def _numbers(name: str, unit: str, text: str | None) -> list[float | None]:
     if text is None:
         return [None]
     try:
-        return [float(word) for word in text.split(",")]
+        given = [float(word) for word in text.split(",")]
     except ValueError:
-        raise InvalidInput(f"{option} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
+        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
+    return [Number(unit=unit).check(name, one) for one in given]
 
 
 def _share(text: str) -> float:
@@ -165,23 +169,19 @@ def as_text(found: Sensitivities) -> str:
     """Return sensitivities as they are printed: a table, sentences, and what the sums say."""
     share = f"{100.0 * found.change:g} %"
     held = "instantaneous" if found.scene.material.moduli == "instantaneous" else "long-term"
-    lines = [
+    head = [
         f"Rubber {found.scene.material.name}, {_title(found)} ({found.kinematics} strain)",
         f"g_i: modulus of the branch; the {held} modulus is held, and {_others(held)}",
-        "",
-        *_columns(found.table, share),
-        "",
-        *found.sentences(),
-        "",
-        *(f"{one.sum} = {one.residual:.2g} ± {one.error:.1g}, exactly 0: {one.why}" for one in found.identities),
+        *found.notes,
     ]
-    for row in found.table[found.table["note"] != ""].to_dict("records"):
-        lines.append(f"{row['parameter']} has no sensitivity: {row['note']}")
+    sums = [f"{one.sum} = {one.residual:.2g} ± {one.error:.1g}, exactly 0: {one.why}" for one in found.identities]
+    noted = found.table[found.table["note"] != ""].to_dict("records")
+    refused = [f"{row['parameter']} has no sensitivity: {row['note']}" for row in noted]
+    parts = [head, _columns(found.table, share), found.sentences(), sums, refused]
     if found.sobol is not None:
-        head = f"Sobol' indices within ± {share} of every number, first and total order, with 95 % intervals:"
-        lines += ["", head, *_indices(found.sobol)]
-    lines += found.notes
-    return "\n".join(lines).rstrip()
+        about = f"Sobol' indices within ± {share} of every number, first and total order, with 95 % intervals:"
+        parts.append([about, *_indices(found.sobol)])
+    return "\n\n".join("\n".join(part) for part in parts if part)
 
 
 def _others(held: str) -> str:

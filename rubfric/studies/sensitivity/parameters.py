@@ -1,7 +1,8 @@
 """What friction may depend on: every number of rubber, road, block and load, and scenes in which one is changed.
 
 A parameter x is changed along a coordinate t, in which x is smooth and stays admissible: ln x for most; -ln(1 - 2 nu)
-for Poisson's ratio, so that the rubber is less compressible by the same factor; temperature by 100 (exp(t) - 1) kelvin.
+for Poisson's ratio, so that the rubber is less compressible by the same factor; temperature by 10 (exp(t) - 1) kelvin,
+which changes relaxation times about as much as t changes others.
 
 A branch is changed by its modulus G_i = g_i G_0. What is held is the modulus that the rubber is given by. Where that
 is the long-term one, it and the moduli of all other branches are held; where it is the instantaneous one, all shear
@@ -22,7 +23,7 @@ from rubfric.rubber.shift import KELVIN, ShiftedRubber
 from rubfric.scene.scene import Scene
 
 # Kelvins by which temperature is changed for each unit of exp(t) - 1.
-_KELVINS = 100.0
+_KELVINS = 10.0
 # Of a road of more waves, such as a measured profile, amplitudes are changed all together.
 _MOST_WAVES = 24
 

@@ -59,7 +59,7 @@ def sensitivity(
     scale : int or "all"
         One scale of the road, or all at once: the first of several draws or windows.
     change : float
-        By how much a parameter is changed, relative; temperature by 100 times as many kelvin, and 1 - 2 nu of
+        By how much a parameter is changed, relative; temperature by 10 times as many kelvin, and 1 - 2 nu of
         Poisson's ratio.
     only : sequence of str
         Symbols of parameters; all by default.
@@ -85,9 +85,8 @@ def sensitivity(
     --------
     >>> import rubfric
     >>> found = rubfric.sensitivity(rubfric.load({"kinematics": "small"}), 100, 0.5, scale=1, only=["p", "E"])
-    >>> print(found.table[["parameter", "sensitivity"]].round(1).to_string(index=False, header=False))
-    p  0.3
-    E -0.3
+    >>> found.table.set_index("parameter")["sensitivity"].round(1).to_dict()
+    {'E': -0.3, 'p': 0.3}
     """
     change = Number(low=0.001, high=0.3).check("change", change)
     if sobol:

@@ -53,6 +53,8 @@ def test_prints_what_python_finds_as_text_json_csv_and_picture(
         (["--range", "60%"], "change is 0.6, but must be at most 0.3"),
         (["--pressure", "1;2"], "--pressure is '1;2', but must be numbers with commas between, 1,10,100 say"),
         (["--pressure", "1,2", "-o", "a.png"], "--output draws one speed and pressure, but 2 are given: leave one"),
+        (["--velocity", "-3"], "velocity is -3 mm/s, but must be greater than 0"),
+        (["--scale", "x"], "--scale is 'x', but must be the number of a scale, or all"),
         (["-o", "a.svg"], "--output is a.svg, but its name must end in .pdf or .png"),
         (["--only", "g_9"], "the parameter 'g_9' is unknown"),
         (["--temperature", "20"], "temperature is 20 degC, but rubber zhou2019 is known at one temperature only"),
