@@ -21,6 +21,7 @@ from typing import Any
 
 from rubfric.errors import RubfricError
 from rubfric.files import why_not
+from rubfric.runner import times
 from rubfric.workers import Worker, hire, start_server
 
 _WARM = "rubfric.runner.warm"
@@ -100,8 +101,9 @@ def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
     """Run one job with all output in its log; return the reason why it failed, or None."""
     try:
         _redirect(log)
-        main: Callable[..., None] = runpy.run_path(script)["main"]
-        main(**arguments)
+        with times.clock():
+            main: Callable[..., None] = runpy.run_path(script)["main"]
+            main(**arguments)
         sys.stdout.flush()
     except Exception as error:
         with contextlib.suppress(OSError):  # on a full disk
