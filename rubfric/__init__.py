@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
     from rubfric.simulation import simulate
-    from rubfric.total_simulation import friction
+    from rubfric.total_simulation import friction, run
 
 __version__ = "0.1.0"
 
@@ -57,6 +57,7 @@ _HOMES = {
     "friction": "total_simulation",
     "load": "config.campaign",
     "march": "marching",
+    "run": "total_simulation",
     "simulate": "simulation",
     "simulate_areal": "areal_simulation",
     "write": "results.dataset",
@@ -84,6 +85,7 @@ __all__ = [
     "friction",
     "load",
     "march",
+    "run",
     "simulate",
     "simulate_areal",
     "write",

@@ -29,8 +29,8 @@ examples:
   rubfric friction --config mine.yaml --velocity 1,10,100 --pressure 0.2,1
   rubfric friction --config mine.yaml --velocity 100 --pressure 0.3 --temperature 0,20,60 --csv > friction.csv
 
-Speeds, pressures and temperatures are those of the config's grid by default. Results in the config's folder are used
-where they fit; what is missing is solved, one scene after the other, and not kept: run snakemake for a whole grid.
+Speeds, pressures and temperatures are those of the config's grid by default. Scenes are solved side by side, and kept
+in the folder .cache of the config's results: what is known there, or from snakemake, is not solved again.
 """
 # Columns of the table that are printed, and their headings.
 _AXES = {"velocity_mm_per_s": "mm/s", "pressure_MPa": "MPa", "temperature_degC": "degC"}
@@ -75,6 +75,10 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
     form = command.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON, for scripts")
     form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")
+    command.add_argument(
+        "--jobs", "-j", type=int, metavar="N", help="scenes to solve at a time (default: as many as there are cores)"
+    )
+    command.add_argument("--quiet", "-q", action="store_true", help="do not say how far it is")
     command.set_defaults(run=_friction, configs=configs)
 
 
@@ -89,7 +93,7 @@ def _friction(options: argparse.Namespace) -> int:
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if campaign.others:
         print(f"rubfric: {which(campaign)}", file=sys.stderr)
-    table = friction(asked, progress=lambda line: print(f"rubfric: {line}", file=sys.stderr, flush=True))
+    table = friction(asked, jobs=options.jobs, progress=not options.quiet)
     if options.csv:
         print(table.to_csv(index=False, float_format="%.6g"), end="")
     else:
