@@ -46,8 +46,9 @@ KEPT = ".cache"
 _SCENES, _WHOLE = "scenes", "whole"
 # What all scenes share, as JSON, and what stands for all of them.
 _SHARED = ("material", MATERIALS, "numerics", COLLECTED)
-# So long this process solves by itself, s: workers need as long to begin.
-_ALONE = 1.0
+# So long, s, and so many this process solves by itself: workers need as long to begin, and the time left is known from
+# so many on.
+_ALONE, _FIRST = 1.0, 3
 
 
 class _Job(NamedTuple):
@@ -273,7 +274,7 @@ def _solve_all(jobs: Sequence[_Job], at_once: int, progress: bool | Callable[[st
             progress(done.line())
 
     places = list(range(len(jobs)))
-    while places and (at_once == 1 or len(places) == 1 or done.elapsed < _ALONE):
+    while places and (at_once == 1 or len(places) == 1 or done.elapsed < _ALONE or len(jobs) - len(places) < _FIRST):
         begin(places[0])
         solve(jobs[places[0]])
         end(places.pop(0))
