@@ -163,6 +163,10 @@ class Campaign:
     areal_roads: dict[str, ArealEntry] = field(default_factory=dict)
     areal: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        others = f"; the first of {len(self.pairs)} pairs of rubber and road" if self.others else ""
+        return f"<Campaign: {self.words().rstrip('.')}; results in {self.results}{others}>"
+
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
         """Check a config whole and read it; rubbers that were measured are fitted, roads analysed.
