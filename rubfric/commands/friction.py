@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import rubfric
 from rubfric.checks import written
+from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import not_covered, which
 from rubfric.config.plausibility import check_plausible
 from rubfric.config.temperature import rubber_at
-from rubfric.errors import InvalidInput
 
 if TYPE_CHECKING:  # heavy
     import pandas as pd
@@ -70,8 +70,12 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
         ("temperature", "temperatures of a rubber with shift factors, degC"),
     ):
         command.add_argument(
-            f"--{name}", metavar=f"{name[0].upper()},...", help=f"{what}, with commas between (default: the grid's)"
+            f"--{name}",
+            action=Numbers,
+            metavar=f"{name[0].upper()},...",
+            help=f"{what}, with commas between (default: the grid's)",
         )
+    take_negative_lists(command)
     form = command.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON, for scripts")
     form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")
@@ -84,7 +88,7 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
 
 def _friction(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*options.configs(options.config or []))
-    points = [_listed(options, name) for name in ("velocity", "pressure", "temperature")]
+    points = [getattr(options, name) for name in ("velocity", "pressure", "temperature")]
     from rubfric.total_simulation import at_points, friction  # heavy: only once the config is known to be right
 
     asked = at_points(campaign, *points)
@@ -99,17 +103,6 @@ def _friction(options: argparse.Namespace) -> int:
     else:
         print(as_json(asked, table) if options.json else as_text(asked, table))
     return 0
-
-
-def _listed(options: argparse.Namespace, name: str) -> list[float] | None:
-    """Return the numbers of an option, between commas; nothing where it is not given."""
-    text = getattr(options, name)
-    if text is None:
-        return None
-    try:
-        return [float(word) for word in text.split(",")]
-    except ValueError:
-        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
 
 
 def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
