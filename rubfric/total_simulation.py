@@ -3,34 +3,29 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-import netCDF4
 import pandas as pd
 import xarray as xr
 
 import rubfric
-from rubfric.checksums import check_seal, fingerprint
+from rubfric.checksums import fingerprint
 from rubfric.config.campaign import Campaign
 from rubfric.config.pairs import not_covered
 from rubfric.config.temperature import rubber_at
-from rubfric.errors import BrokenResult, InvalidInput, NotConverged, NotWritten
-from rubfric.files import check_folder, remove_parts, whole
+from rubfric.errors import BrokenResult, InvalidInput, NotConverged
 from rubfric.progress import Progress
-from rubfric.results import answer
+from rubfric.results import answer, kept
 from rubfric.results.campaign import COLLECTED, collect
 from rubfric.results.dataset import load, write
 from rubfric.results.draws import over_draws
 from rubfric.results.provenance import CONVENTIONS, PAPER, SOFTWARE, SOLVER, refusal
-from rubfric.results.selection import NOT_NEEDED, REFUSAL
+from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.temperature import MATERIALS
 from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
@@ -41,8 +36,6 @@ from rubfric.sources import code
 from rubfric.streams import OneLine
 from rubfric.workers import as_completed, cores
 
-# Where the results that are made here are kept, in the folder of the campaign's; the code that made them follows.
-KEPT = ".cache"
 _SCENES, _WHOLE = "scenes", "whole"
 # What all scenes share, as JSON, and what stands for all of them.
 _SHARED = ("material", MATERIALS, "numerics", COLLECTED)
@@ -52,15 +45,16 @@ _ALONE, _FIRST = 1.0, 3
 
 
 class _Job(NamedTuple):
-    """A scene of one scale or of the whole road: where its result is kept here, and what the workflow has of it.
+    """A scene of one scale or of the whole road: where its result is kept, and what the workflow has of it.
 
-    Of a whole road for which a cheaper way may do, the road, too.
+    Of a whole road for which a cheaper way may do, the road, too; ``path`` then says that, or is a copy of ``direct``.
     """
 
     kind: str
     name: str
     scene: Scene
     path: Path
+    direct: Path
     made: Path
     road: WholeRoad | None = None
 
@@ -123,13 +117,13 @@ def run(
     scenes = {_SCENES: asked.scenes(), _WHOLE: asked.whole_scenes()}
     named = [f"{name} {scene.digest}" for of in scenes.values() for name, scene in of.items()]
     which = fingerprint([code(__name__), asked.words(), *named, json.dumps([*parameters.values()])])
-    known = Path(asked.results, KEPT, code(SOLVER), f"{which}.nc")
+    known = kept.place(asked.results) / f"{which}.nc"
     if known.is_file():
         try:
             return load(known)
         except BrokenResult:
             known.unlink()
-    with _folder(known.parent) as folder:
+    with kept.opened(known.parent) as folder:
         found = _solved(asked, parameters, scenes, folder, jobs or cores(), progress)
         write(found, folder / known.name)
     return found
@@ -206,22 +200,6 @@ def _positive(name: str, unit: str, values: Sequence[float]) -> tuple[float, ...
     return Items(each=Number(unit=unit)).check(name, [*values])
 
 
-@contextmanager
-def _folder(kept: Path) -> Iterator[Path]:
-    """Give the folder for results; where nothing can be written there, one for this time only."""
-    try:
-        check_folder(kept)
-    except NotWritten:
-        with TemporaryDirectory(prefix="rubfric-") as folder:
-            yield Path(folder)
-        return
-    for other in kept.parent.iterdir():
-        if other.name != kept.name and other.is_dir():
-            shutil.rmtree(other, ignore_errors=True)  # of other code
-    remove_parts(kept)
-    yield kept
-
-
 def _solved(
     campaign: Campaign,
     parameters: Mapping[float | None, Mapping[str, object]],
@@ -239,19 +217,19 @@ def _solved(
             warm = scene.temperature if campaign.temperatures else None
             # As in the workflow: only where any way will do is the whole road not needed everywhere.
             road = roads[warm] if kind == _WHOLE and roads[warm].way == "auto" else None
-            depends = [scene.digest, *([json.dumps(parameters[warm], sort_keys=True)] if road else [])]
-            kept = folder / f"{name}-{fingerprint(depends)}.nc"
+            depends = [json.dumps(parameters[warm], sort_keys=True)] if road else []
+            paths = (kept.path_of(folder, scene, *depends), kept.path_of(folder, scene))
             by_workflow = made / kind / campaign.material.name / campaign.road_name / f"{name}.nc"
-            jobs.append(_Job(kind, name, scene, kept, by_workflow, road))
-    paths = {job: job.path if _fits(job.path, job.scene, not job.road) else job.made for job in jobs}
-    missing = [job for job in jobs if paths[job] == job.made and (job.road or not _fits(job.made, job.scene))]
+            jobs.append(_Job(kind, name, scene, *paths, by_workflow, road))
+    found = {job: job.path if kept.fits(job.path, job.scene, not job.road) else job.made for job in jobs}
+    missing = [job for job in jobs if found[job] == job.made and (job.road or not kept.fits(job.made, job.scene))]
     if missing:
-        paths |= {job: job.path for job in missing}
+        found |= {job: job.path for job in missing}
         _solve_all(missing, at_once, progress)
-    own = {paths[job]: job.scene.digest for job in jobs if job.kind == _SCENES}
+    own = {found[job]: job.scene.digest for job in jobs if job.kind == _SCENES}
     collected, drawn = collect(own, own.values()), {}
     for draw in campaign.whole_roads:
-        own = {paths[job]: job.scene.digest for job in jobs if job.kind == _WHOLE and job.name == draw + job.scene.name}
+        own = {found[job]: job.scene.digest for job in jobs if job.kind == _WHOLE and job.name == draw + job.scene.name}
         drawn[draw] = collect(own, own.values())
     mean = drawn[""] if "" in drawn else over_draws([*drawn.values()], "window1/" in drawn) if drawn else None
     about = {name: collected.attrs[name] for name in _SHARED if name in collected.attrs}
@@ -297,36 +275,25 @@ def solve(job: _Job) -> None:
     scene = job.scene
     way = job.road.cheapest(scene.velocity, scene.pressure) if job.road else "direct"
     if way != "direct":
-        result = refusal(scene, NOT_NEEDED + way)
-    elif job.road and _fits(job.made, scene):
-        with whole(job.path) as part:
-            shutil.copyfile(job.made, part)
+        write(refusal(scene, NOT_NEEDED + way), job.path)
         return
-    else:
-        try:
-            result = simulate(scene)
-        except (InvalidInput, NotConverged) as reason:
-            if job.kind == _SCENES:
-                if isinstance(reason, NotConverged):
-                    raise
-                raise InvalidInput(f"{job.name}: {reason}") from None
-            result = refusal(scene, reason)
-    write(result, job.path)
+    known = next((path for path in (job.direct, job.made) if kept.fits(path, scene)), None)
+    if known is None:
+        known = job.direct
+        write(_result(job), known)
+    if job.road:
+        kept.copy(known, job.path)
 
 
-def _fits(path: Path, scene: Scene, solved: bool = True) -> bool:
-    """Return whether a file is a whole result of a scene by this code, or, where not ``solved``, says it needs none."""
-    if not path.is_file():
-        return False
+def _result(job: _Job) -> xr.Dataset:
     try:
-        check_seal(path)
-        with netCDF4.Dataset(path) as stored:
-            about = {name: str(stored.getncattr(name)) for name in stored.ncattrs()}
-    except (BrokenResult, OSError, AttributeError):
-        return False
-    if (about.get("scene_digest"), about.get("code_digest")) != (scene.digest, code(SOLVER)):
-        return False
-    return not (solved and about.get(REFUSAL, "").startswith(NOT_NEEDED))
+        return simulate(job.scene)
+    except (InvalidInput, NotConverged) as reason:
+        if job.kind == _WHOLE:
+            return refusal(job.scene, reason)
+        if isinstance(reason, NotConverged):  # which names the scene itself
+            raise
+        raise InvalidInput(f"{job.name}: {reason}") from None
 
 
 def _about(campaign: Campaign) -> dict[str, str]:

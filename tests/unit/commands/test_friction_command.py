@@ -13,8 +13,9 @@ import pytest
 import rubfric
 from rubfric import cli, total_simulation
 from rubfric.errors import InvalidInput
-from rubfric.results import totals
-from rubfric.results.dataset import write
+from rubfric.results import kept, totals
+from rubfric.results.dataset import read, write
+from rubfric.results.kept import take_up
 from rubfric.scene.scene import ALL, Scene
 from rubfric.simulation import simulate
 
@@ -97,6 +98,33 @@ def test_dataset_holds_the_table_and_every_scale(config: Path) -> None:
     assert found["velocity"].attrs["units"] == "mm s-1"
     assert found.attrs["road"] == "two"
     assert json.loads(found.attrs["material"])["name"] == "zhou2019"
+
+
+def test_workers_find_what_one_process_does(config: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    changes = {"multiscale": "auto", "road": "one", "roads": {"one": ROAD[:1]}}
+    alone = rubfric.friction(rubfric.load(config, changes), [10, 100], [0.5], jobs=1)
+    monkeypatch.setattr(total_simulation, "_ALONE", 0.0)
+    monkeypatch.setattr(total_simulation, "_FIRST", 0)
+    elsewhere = rubfric.load(config, changes, {"results": str(tmp_path / "elsewhere")})
+    lines: list[str] = []
+    together = rubfric.friction(elsewhere, [10, 100], [0.5], jobs=2, progress=lines.append)
+    assert lines[-1].startswith("2 of 2 scenes, 2 of 2 scenes of the whole road; slowest ")
+    pd.testing.assert_frame_equal(together, alone, rtol=1e-9)
+
+
+def test_workflow_takes_up_what_is_kept_and_nothing_else(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    campaign = rubfric.load(config, {"multiscale": "direct", "road": "one", "roads": {"one": ROAD[:1]}})
+    campaign.run([100], [0.5], jobs=1, progress=False)
+    results = config.parent
+    asked = total_simulation.at_points(campaign, [100], [0.5])
+    for place, scenes in (("scenes", asked.scenes()), ("whole", asked.whole_scenes())):
+        for name, scene in scenes.items():
+            output = results / place / "zhou2019" / "one" / f"{name}.nc"
+            assert take_up(output, scene)
+            assert read(output, scene.digest).attrs["scene"] == name
+    assert not take_up(output, campaign.scene(1, 101, 0.5))
+    monkeypatch.setattr(kept, "code", lambda module: "of another version")
+    assert not take_up(output, scene)
 
 
 def test_scene_that_is_refused_is_named(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
