@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import pandas as pd
 import xarray as xr
@@ -18,45 +16,23 @@ from rubfric.checksums import fingerprint
 from rubfric.config.campaign import Campaign
 from rubfric.config.pairs import not_covered
 from rubfric.config.temperature import rubber_at
-from rubfric.errors import BrokenResult, InvalidInput, NotConverged
-from rubfric.progress import Progress
+from rubfric.errors import BrokenResult
 from rubfric.results import answer, kept
 from rubfric.results.campaign import COLLECTED, collect
 from rubfric.results.dataset import load, write
 from rubfric.results.draws import over_draws
-from rubfric.results.provenance import CONVENTIONS, PAPER, SOFTWARE, SOLVER, refusal
-from rubfric.results.selection import NOT_NEEDED
+from rubfric.results.provenance import CONVENTIONS, PAPER, SOFTWARE, SOLVER
 from rubfric.results.temperature import MATERIALS
 from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
 from rubfric.rules import LARGEST, Integer, Items, Number
 from rubfric.scene.scene import Scene
-from rubfric.simulation import simulate
+from rubfric.scene_jobs import SCENES, WHOLE, Job, solve_all
 from rubfric.sources import code
-from rubfric.streams import OneLine
-from rubfric.workers import as_completed, cores
+from rubfric.workers import cores
 
-_SCENES, _WHOLE = "scenes", "whole"
 # What all scenes share, as JSON, and what stands for all of them.
 _SHARED = ("material", MATERIALS, "numerics", COLLECTED)
-# So long, s, and so many this process solves by itself: workers need as long to begin, and the time left is known from
-# so many on.
-_ALONE, _FIRST = 1.0, 3
-
-
-class _Job(NamedTuple):
-    """A scene of one scale or of the whole road: where its result is kept, and what the workflow has of it.
-
-    Of a whole road for which a cheaper way may do, the road, too; ``path`` then says that, or is a copy of ``direct``.
-    """
-
-    kind: str
-    name: str
-    scene: Scene
-    path: Path
-    direct: Path
-    made: Path
-    road: WholeRoad | None = None
 
 
 def run(
@@ -114,15 +90,13 @@ def run(
     if jobs is not None:
         Integer().check("jobs", jobs)
     parameters = {warm: one.whole_parameters() for warm, one in asked.by_temperature.items()}
-    scenes = {_SCENES: asked.scenes(), _WHOLE: asked.whole_scenes()}
+    scenes = {SCENES: asked.scenes(), WHOLE: asked.whole_scenes()}
     named = [f"{name} {scene.digest}" for of in scenes.values() for name, scene in of.items()]
     which = fingerprint([code(__name__), asked.words(), *named, json.dumps([*parameters.values()])])
     known = kept.place(asked.results) / f"{which}.nc"
     if known.is_file():
-        try:
+        with suppress(BrokenResult):
             return load(known)
-        except BrokenResult:
-            known.unlink()
     with kept.opened(known.parent) as folder:
         found = _solved(asked, parameters, scenes, folder, jobs or cores(), progress)
         write(found, folder / known.name)
@@ -216,84 +190,24 @@ def _solved(
         for name, scene in of.items():
             warm = scene.temperature if campaign.temperatures else None
             # As in the workflow: only where any way will do is the whole road not needed everywhere.
-            road = roads[warm] if kind == _WHOLE and roads[warm].way == "auto" else None
+            road = roads[warm] if kind == WHOLE and roads[warm].way == "auto" else None
             depends = [json.dumps(parameters[warm], sort_keys=True)] if road else []
             paths = (kept.path_of(folder, scene, *depends), kept.path_of(folder, scene))
             by_workflow = made / kind / campaign.material.name / campaign.road_name / f"{name}.nc"
-            jobs.append(_Job(kind, name, scene, *paths, by_workflow, road))
+            jobs.append(Job(kind, name, scene, *paths, by_workflow, road))
     found = {job: job.path if kept.fits(job.path, job.scene, not job.road) else job.made for job in jobs}
     missing = [job for job in jobs if found[job] == job.made and (job.road or not kept.fits(job.made, job.scene))]
     if missing:
         found |= {job: job.path for job in missing}
-        _solve_all(missing, at_once, progress)
-    own = {found[job]: job.scene.digest for job in jobs if job.kind == _SCENES}
+        solve_all(missing, at_once, progress)
+    own = {found[job]: job.scene.digest for job in jobs if job.kind == SCENES}
     collected, drawn = collect(own, own.values()), {}
     for draw in campaign.whole_roads:
-        own = {found[job]: job.scene.digest for job in jobs if job.kind == _WHOLE and job.name == draw + job.scene.name}
+        own = {found[job]: job.scene.digest for job in jobs if job.kind == WHOLE and job.name == draw + job.scene.name}
         drawn[draw] = collect(own, own.values())
     mean = drawn[""] if "" in drawn else over_draws([*drawn.values()], "window1/" in drawn) if drawn else None
     about = {name: collected.attrs[name] for name in _SHARED if name in collected.attrs}
     return answer.dataset(total_tables(collected, mean, roads), collected, _about(campaign) | about)
-
-
-def _solve_all(jobs: Sequence[_Job], at_once: int, progress: bool | Callable[[str], None]) -> None:
-    """Solve all jobs: for a while in this process, then, the last and dearest first, in workers."""
-    line = OneLine(sys.stderr if progress is True else None)
-    rules = {_SCENES: "scene", _WHOLE: "whole_scene"}
-    done = Progress(Counter(rules[job.kind] for job in jobs))
-
-    def begin(place: int) -> None:
-        done.start(place, rules[jobs[place].kind], jobs[place].name)
-
-    def end(place: int, last: bool = False) -> None:
-        done.finish(place)
-        line.show(f"rubfric: {done.line()}", last or done.complete)
-        if callable(progress):
-            progress(done.line())
-
-    places = list(range(len(jobs)))
-    while places and (at_once == 1 or len(places) == 1 or done.elapsed < _ALONE or len(jobs) - len(places) < _FIRST):
-        begin(places[0])
-        solve(jobs[places[0]])
-        end(places.pop(0))
-    order = places[::-1]
-    names = [jobs[place].name for place in order]
-    for which, _ in as_completed(
-        solve, [jobs[place] for place in order], at_once, (__name__,), names, lambda which: begin(order[which])
-    ):
-        end(order[which])
-
-
-def solve(job: _Job) -> None:
-    """Keep the result of a job; of the whole road why there is none, or the way that is cheaper.
-
-    Raises
-    ------
-    InvalidInput, NotConverged
-        For a scene of one scale that is refused.
-    """
-    scene = job.scene
-    way = job.road.cheapest(scene.velocity, scene.pressure) if job.road else "direct"
-    if way != "direct":
-        write(refusal(scene, NOT_NEEDED + way), job.path)
-        return
-    known = next((path for path in (job.direct, job.made) if kept.fits(path, scene)), None)
-    if known is None:
-        known = job.direct
-        write(_result(job), known)
-    if job.road:
-        kept.copy(known, job.path)
-
-
-def _result(job: _Job) -> xr.Dataset:
-    try:
-        return simulate(job.scene)
-    except (InvalidInput, NotConverged) as reason:
-        if job.kind == _WHOLE:
-            return refusal(job.scene, reason)
-        if isinstance(reason, NotConverged):  # which names the scene itself
-            raise
-        raise InvalidInput(f"{job.name}: {reason}") from None
 
 
 def _about(campaign: Campaign) -> dict[str, str]:

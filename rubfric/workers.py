@@ -76,7 +76,9 @@ class Worker(NamedTuple):
 
 
 def cores() -> int:
-    """Return on how many cores this process may run."""
+    """Return on how many cores this process may run; one in a worker of multiprocessing, which may have no workers."""
+    if multiprocessing.current_process().daemon:
+        return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import rubfric
-from rubfric import cli, total_simulation
+from rubfric import cli, scene_jobs, total_simulation
 from rubfric.errors import InvalidInput
 from rubfric.results import kept, totals
 from rubfric.results.dataset import read, write
@@ -103,8 +103,8 @@ def test_dataset_holds_the_table_and_every_scale(config: Path) -> None:
 def test_workers_find_what_one_process_does(config: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     changes = {"multiscale": "auto", "road": "one", "roads": {"one": ROAD[:1]}}
     alone = rubfric.friction(rubfric.load(config, changes), [10, 100], [0.5], jobs=1)
-    monkeypatch.setattr(total_simulation, "_ALONE", 0.0)
-    monkeypatch.setattr(total_simulation, "_FIRST", 0)
+    monkeypatch.setattr(scene_jobs, "_ALONE", 0.0)
+    monkeypatch.setattr(scene_jobs, "_FIRST", 0)
     elsewhere = rubfric.load(config, changes, {"results": str(tmp_path / "elsewhere")})
     lines: list[str] = []
     together = rubfric.friction(elsewhere, [10, 100], [0.5], jobs=2, progress=lines.append)
@@ -131,7 +131,7 @@ def test_scene_that_is_refused_is_named(config: Path, monkeypatch: pytest.Monkey
     def refused(scene: Scene) -> object:
         raise InvalidInput("the load is too light")
 
-    monkeypatch.setattr(total_simulation, "simulate", refused)
+    monkeypatch.setattr(scene_jobs, "simulate", refused)
     with pytest.raises(InvalidInput, match=r"^scale1_v100_p0\.5_aspect0\.75_stress: the load is too light$"):
         rubfric.friction(rubfric.load(config), [100], [0.5])
 
@@ -149,7 +149,7 @@ def test_corrected_sum_stands_in_for_a_whole_road_without_solution(
             raise InvalidInput("no solution")
         return simulate(scene)
 
-    monkeypatch.setattr(total_simulation, "simulate", refused)
+    monkeypatch.setattr(scene_jobs, "simulate", refused)
     table = rubfric.friction(rubfric.load(config, {"multiscale": "direct"}), [100], [0.5])
     assert table["way"][0] == "corrected"
     assert table["note"][0].endswith("was refused: no solution")
