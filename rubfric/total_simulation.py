@@ -83,8 +83,8 @@ def run(
     >>> import rubfric
     >>> campaign = rubfric.load({"multiscale": "sum", "kinematics": "small"})
     >>> result = rubfric.run(campaign, velocities=[100], pressures=[0.5], progress=False)
-    >>> print(f"{float(result.friction_total):.2f} +- {float(result.friction_total_error):.2f}")
-    0.65 +- 0.38
+    >>> print(f"{result.friction_total.item():.2f} +- {result.friction_total_error.item():.2f}")
+    0.65 +- 0.10
     """
     asked = at_points(campaign, velocities, pressures, temperatures)
     if jobs is not None:
