@@ -13,6 +13,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator
 
 from rubfric.config.campaign import Campaign
 from rubfric.errors import InvalidInput
@@ -27,7 +28,8 @@ from rubfric.results.selection import written
 from rubfric.results.temperature import COLUMN, rows_at
 from rubfric.results.totals_file import read_totals
 
-_HEIGHT = 2.7
+# Height of a panel, inches; of so many panels each is wide enough for ticks between decades.
+_HEIGHT, _WIDE = 2.7, 2
 _BAND: dict[str, Any] = {"facecolor": "0.3", "alpha": 0.25, "linewidth": 0.0, "label": "Error"}
 
 
@@ -120,8 +122,11 @@ def friction(
         for panel, one in zip(axes, tables, strict=True)
         for pressure, look in zip(chosen, looks, strict=True)
     ]
+    speeds = table[AXES[0]].to_numpy(dtype=np.float64)
     for panel in axes:
-        scale_speeds(panel, table[AXES[0]].to_numpy(dtype=np.float64))
+        scale_speeds(panel, speeds)
+        if len(axes) > _WIDE and speeds.max() >= 10.0 * speeds.min():
+            panel.xaxis.set_major_locator(LogLocator(10.0))  # decades only
         scale_friction(panel, np.concatenate(highest))
     if len(tables) > 1:
         panels.entitle(axes, [f"{written(float(one))} \N{DEGREE SIGN}C" for one in warm if one is not None])
