@@ -76,7 +76,9 @@ class Worker(NamedTuple):
 
 
 def cores() -> int:
-    """Return on how many cores this process may run."""
+    """Return on how many cores this process may run; one in a worker of multiprocessing, which may have no workers."""
+    if multiprocessing.current_process().daemon:
+        return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -110,7 +112,12 @@ def hire(*preload: str) -> Worker:
 
 
 def as_completed(
-    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int | None = None, preload: Sequence[str] = ()
+    function: Callable[[Task], Result],
+    tasks: Sequence[Task],
+    jobs: int | None = None,
+    preload: Sequence[str] = (),
+    names: Sequence[str] | None = None,
+    begun: Callable[[int], object] = lambda place: None,
 ) -> Iterator[tuple[int, Result]]:
     """Yield the place of every task and its result, in the order in which they are done.
 
@@ -127,25 +134,32 @@ def as_completed(
         How many at a time; as many as there are cores by default.
     preload : sequence of str
         Modules to import once for all workers.
+    names : sequence of str, optional
+        Of the tasks, for errors; by default their numbers.
+    begun : callable, optional
+        Takes the place of a task that begins.
 
     Raises
     ------
     WorkerDied
-        With the place of the task.
+        With the name of the task.
     """
     waiting = deque(range(len(tasks)))
+    known = names or [f"task {place + 1}" for place in waiting]
     idle: list[Worker] = []
     busy: dict[Any, tuple[Worker, int]] = {}
     try:
         while waiting or busy:
             while waiting and len(busy) < (jobs or cores()):
                 worker = idle.pop() if idle else hire(*preload)
-                busy[worker.connection] = worker, waiting[0]
-                with _lost(worker, waiting[0]):
-                    worker.begin(_answer, function, tasks[waiting.popleft()])
+                place = waiting.popleft()
+                busy[worker.connection] = worker, place
+                with _lost(worker, known[place]):
+                    worker.begin(_answer, function, tasks[place])
+                begun(place)
             for connection in wait(list(busy)):
                 worker, place = busy[connection]
-                with _lost(worker, place):
+                with _lost(worker, known[place]):
                     result, error = worker.connection.recv()
                 if error is not None:
                     raise error
@@ -158,12 +172,12 @@ def as_completed(
 
 
 @contextlib.contextmanager
-def _lost(worker: Worker, place: int) -> Iterator[None]:
+def _lost(worker: Worker, name: str) -> Iterator[None]:
     """Raise WorkerDied where the connection to a worker breaks within the block."""
     try:
         yield
     except (EOFError, OSError) as error:
-        raise WorkerDied(f"task {place + 1}: {worker.last_words()}") from error
+        raise WorkerDied(f"{name}: {worker.last_words()}") from error
 
 
 def _answer(function: Callable[[Task], Result], task: Task) -> tuple[Result | None, Exception | None]:

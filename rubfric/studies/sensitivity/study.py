@@ -199,7 +199,7 @@ def _differences(
         task = tasks[len(answers)]
         left = note(task, _answer(task))
     rest = tasks[len(answers) :]
-    for place, answer in as_completed(_answer, rest, jobs, preload=[__name__]):
+    for place, answer in as_completed(_answer, rest, jobs, preload=[__name__], names=[task.name for task in rest]):
         note(rest[place], answer)
     in_order = {one.name: answers[one.name] for one in chosen}
     found = {name: answer for name, answer in in_order.items() if isinstance(answer, Difference)}
