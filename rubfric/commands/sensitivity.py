@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
-from rubfric.checks import written
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
@@ -135,7 +134,7 @@ def _sensitivity(options: argparse.Namespace) -> int:
         from rubfric.figures.sensitivity import draw
         from rubfric.figures.style import save
 
-        save(draw(found[0].table, found[0].change, _title(found[0])), *options.output)
+        save(draw(found[0].table, found[0].change, found[0].title), *options.output)
         print(f"rubfric: drawn to {', '.join(map(str, options.output))}", file=sys.stderr)
     return 0
 
@@ -157,20 +156,12 @@ def _share(text: str) -> float:
         raise InvalidInput(f"--range is {text!r}, but must be a share, 10% or 0.1 say") from None
 
 
-def _title(found: Sensitivities) -> str:
-    scene = found.scene
-    road = "whole road" if scene.scale == ALL else f"scale {scene.scale}"
-    warm = "" if scene.temperature is None else f", {written(scene.temperature)} °C"
-    where = f"{road}, {written(scene.velocity)} mm/s, {written(scene.pressure)} MPa{warm}"
-    return f"{where}: friction {found.friction:.4g} ± {found.friction_error:.1g}"
-
-
 def as_text(found: Sensitivities) -> str:
     """Return sensitivities as they are printed: a table, sentences, and what the sums say."""
     share = f"{100.0 * found.change:g} %"
     held = "instantaneous" if found.scene.material.moduli == "instantaneous" else "long-term"
     head = [
-        f"Rubber {found.scene.material.name}, {_title(found)} ({found.kinematics} strain)",
+        f"Rubber {found.scene.material.name}, {found.title} ({found.kinematics} strain)",
         f"g_i: modulus of the branch; the {held} modulus is held, and {_others(held)}",
         *found.notes,
     ]

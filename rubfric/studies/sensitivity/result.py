@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from rubfric.checks import written
-from rubfric.scene.scene import Scene
+from rubfric.scene.scene import ALL, Scene
 
 # Exact sums of sensitivities, by the names that a parameter begins with and their signs, and why they vanish.
 _IDENTITIES: Mapping[str, tuple[str, Mapping[str, float]]] = {
@@ -71,6 +71,15 @@ class Sensitivities:
     identities: tuple[Identity, ...]
     sobol: pd.DataFrame | None = None
     notes: tuple[str, ...] = field(default=())
+
+    @property
+    def title(self) -> str:
+        """Road, speed, pressure and friction, in words."""
+        scene = self.scene
+        road = "whole road" if scene.scale == ALL else f"scale {scene.scale}"
+        warm = "" if scene.temperature is None else f", {written(scene.temperature)} °C"
+        where = f"{road}, {written(scene.velocity)} mm/s, {written(scene.pressure)} MPa{warm}"
+        return f"{where}: friction {self.friction:.4g} ± {self.friction_error:.1g}"
 
     def __repr__(self) -> str:
         clear = self.table[self.table["friction_change"].abs() > self.table["friction_change_error"]]

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import rubfric
-from rubfric import cli
+from rubfric import cli, plot
 
 COMMAND = ["sensitivity", "--scale", "1", "--kinematics", "small", "--preset", "draft", "--velocity", "1"]
 ONLY = ["--pressure", "5", "--only", "E,p,tau_1"]
@@ -33,6 +33,7 @@ def test_prints_what_python_finds_as_text_json_csv_and_picture(
     assert np.allclose(found["sensitivity"], expected.table["sensitivity"], rtol=1e-9)
     assert point["sentences"] == expected.sentences()
     assert picture.read_bytes().startswith(b"\x89PNG")
+    assert plot.sensitivity(expected).get_suptitle() == expected.title
 
     assert cli.main([*COMMAND, "--pressure", "5,6", "--only", "p,v", "--csv"]) == 0
     table = pd.read_csv(io.StringIO(capsys.readouterr().out))
