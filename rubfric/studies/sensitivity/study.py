@@ -19,14 +19,12 @@ from rubfric.scene.scene import ALL, Scene
 from rubfric.studies.sensitivity.differences import Base, Difference, difference, errors, solved
 from rubfric.studies.sensitivity.parameters import Parameter, parameters
 from rubfric.studies.sensitivity.result import Sensitivities, identities
+from rubfric.studies.sensitivity.sharing import shared
 from rubfric.studies.sensitivity.sobol import indices
 from rubfric.total_simulation import at_points
-from rubfric.workers import as_completed
 
 # By how much a parameter is changed where nothing else is asked for.
 CHANGE = 0.1
-# So much work, s, this process does by itself: workers need as long to begin.
-_PATIENCE = 8.0
 
 
 def sensitivity(
@@ -107,8 +105,7 @@ def sensitivity(
     if scale == ALL and len(campaign.whole_roads) > 1:
         said.append(f"of the first of {len(campaign.whole_roads)} roads: draws of phases, or windows of a profile")
     if sobol:
-        kept = [one for one in chosen if one.name in found]
-        indexed, stood_in = indices(base, kept, [found[one.name] for one in kept], change, sobol, progress=progress)
+        indexed, stood_in = indices(base, rubber, list(found.values()), change, sobol, progress=progress, jobs=jobs)
         said += stood_in
     kinematics = base.fine.decision.kinematics
     about = (
@@ -183,24 +180,15 @@ def _differences(
 
     What would take long is shared among workers.
     """
-    answers: dict[str, Difference | str] = {}
     tasks = [_Task(base, rubber, one.name, step) for one in chosen]
+    names = [task.name for task in tasks]
+    answers: dict[str, Difference | str] = {}
     began = time.monotonic()
-
-    def note(task: _Task, answer: Difference | str) -> float:
-        answers[task.name] = answer
+    for place, answer in shared(_answer, tasks, jobs, names):
+        answers[names[place]] = answer
         count = len(answers)
         left = (time.monotonic() - began) / count * (len(tasks) - count)
-        progress(f"solved {6 * count} of {6 * len(tasks)} scenes, {task.name}; about {left:.0f} s left")
-        return left
-
-    left = 0.0
-    while len(answers) < len(tasks) and (left < _PATIENCE or jobs == 1):
-        task = tasks[len(answers)]
-        left = note(task, _answer(task))
-    rest = tasks[len(answers) :]
-    for place, answer in as_completed(_answer, rest, jobs, preload=[__name__], names=[task.name for task in rest]):
-        note(rest[place], answer)
+        progress(f"solved {6 * count} of {6 * len(tasks)} scenes, {names[place]}; about {left:.0f} s left")
     in_order = {one.name: answers[one.name] for one in chosen}
     found = {name: answer for name, answer in in_order.items() if isinstance(answer, Difference)}
     return found, {name: answer for name, answer in in_order.items() if isinstance(answer, str)}

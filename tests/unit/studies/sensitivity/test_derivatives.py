@@ -17,7 +17,7 @@ from rubfric.rubber.material import Material
 from rubfric.rubber.shift import Shift, ShiftedRubber
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import Scene
-from rubfric.studies.sensitivity import study
+from rubfric.studies.sensitivity import sharing, study
 from rubfric.studies.sensitivity.differences import difference, errors, solved
 from rubfric.studies.sensitivity.parameters import parameters, with_branch
 
@@ -184,8 +184,11 @@ def test_finite_strain_has_the_same_invariances_and_the_change_of_two_solves(pap
 
 @pytest.mark.thorough
 def test_workers_find_what_one_process_finds(monkeypatch: pytest.MonkeyPatch) -> None:
-    campaign, arguments = rubfric.load(SMALL), {"scale": 1, "only": ["E", "tau_2", "a"], "preset": "draft"}
+    campaign, arguments = rubfric.load(SMALL), {"scale": 1, "only": ["E", "tau_2", "a"], "sobol": 16}
     alone = rubfric.sensitivity(campaign, 100, 0.5, jobs=1, **arguments)  # type: ignore[arg-type]
-    monkeypatch.setattr(study, "_PATIENCE", 0.0)
+    monkeypatch.setattr(sharing, "_PATIENCE", 0.0)
     shared = rubfric.sensitivity(campaign, 100, 0.5, jobs=2, **arguments)  # type: ignore[arg-type]
     assert np.allclose(alone.table["sensitivity"], shared.table["sensitivity"], rtol=1e-8)
+    assert alone.sobol is not None
+    assert shared.sobol is not None
+    assert np.allclose(alone.sobol["total_order"], shared.sobol["total_order"], rtol=1e-8)
