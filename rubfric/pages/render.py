@@ -20,6 +20,7 @@ _EXPLORER = (
     "template.html",
     "explorer.css",
     "words.js",
+    "packed.js",
     "tables.js",
     "blocks.js",
     "charts.js",

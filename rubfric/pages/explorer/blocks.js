@@ -1,22 +1,8 @@
 "use strict";
-// The deformed block on the road: its numbers unpacked, its field as an image, and the plot around it.
+// The deformed block on the road: its field as an image, and the plot around it.
 
-const STEPS = 65535;
+const STEPS = 16383;
 const TOUCH = "#e8601c", ROAD = "#ecebe7", ROAD_LINE = "#8b8a86", INK = "#1d2129";
-
-/** The numbers of all pictures: inflated, their bytes joined, their differences summed. */
-async function unpack(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const bytes = new Uint8Array(await new Response(inflated).arrayBuffer());
-  const count = bytes.length / 2;
-  const numbers = new Uint16Array(count);
-  for (let place = 0, last = 0; place < count; place += 1) {
-    last = (last + (bytes[place] << 8) + bytes[count + place]) & STEPS;
-    numbers[place] = last;
-  }
-  return numbers;
-}
 
 /** A picture in its units (mm, MPa; energies as decimal logarithms). */
 function opened(numbers, about) {

@@ -239,10 +239,11 @@ async function begin() {
   for (const make of [showAbout, makeControls, makeTemperatures, () => makeRoads(data)]) make();
   document.querySelector("main").hidden = false;
   try {
-    numbers = await unpack(data.pictures);
+    [numbers] = await Promise.all([unpack(data.pictures), loadLibrary()]);
   } catch {
     byId("notice").hidden = false;
-    byId("notice").textContent = "This browser cannot unpack the pictures of the block; Chrome 80, Firefox 113, Safari 16.4 and later can.";
+    byId("notice").textContent = "This browser cannot unpack the charts and the pictures of the block; Chrome 80, Firefox 113, Safari 16.4 and later can.";
+    return;
   }
   choose({});
 }

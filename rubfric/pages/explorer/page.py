@@ -8,6 +8,7 @@ from typing import Any
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from rubfric.pages.explorer.pictures import deflated
 from rubfric.pages.render import assets, render
 
 
@@ -17,7 +18,8 @@ def page(payload: dict[str, Any]) -> str:
     return render(
         "explorer/template.html",
         title=f"Friction of rubber {about['rubber']} on road {about['road']}",
-        library=Markup(get_plotlyjs()),
+        lead="Every scene of a campaign: its friction, its deformed block, its numbers.",
+        library=deflated(get_plotlyjs().encode()),
         payload=Markup(_embedded(payload)),
         scripts=[path.name for path in assets("explorer") if path.suffix == ".js"],
     )
