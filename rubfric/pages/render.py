@@ -20,13 +20,17 @@ _EXPLORER = (
     "template.html",
     "explorer.css",
     "words.js",
+    "look.js",
     "packed.js",
     "tables.js",
+    "warnings.js",
     "blocks.js",
     "charts.js",
     "whole.js",
     "roads.js",
+    "compare.js",
     "temperatures.js",
+    "play.js",
     "explorer.js",
 )
 # What each page is made of beside its code; scripts in the order in which the browser reads them.

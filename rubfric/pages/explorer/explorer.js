@@ -10,7 +10,7 @@ let drawn = Promise.resolve();
 
 // ---- What is chosen, and the address that says so ----
 
-const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, road: 0, spot: null };
+const chosen = { place: places[0], view: "curves", unit, pressure: 0, speed: 0, road: 0, spot: null, beside: others(data).length > 2 ? [0] : others(data).map((_, order) => order) };
 
 /** The scene of highest friction at a place: what a visitor sees first. */
 function highestScene(place) {
@@ -30,20 +30,23 @@ function readAddress() {
   };
   if (places.includes(said.get("scale"))) chosen.place = said.get("scale");
   if (["curves", "map"].includes(said.get("view"))) chosen.view = said.get("view");
+  if (said.get("unit") in UNITS) chosen.unit = said.get("unit");
   const [pressure, speed] = [nearest(data.pressures, "pressure"), nearest(data.speeds, "speed")];
   if (pressure >= 0) chosen.pressure = pressure;
   if (speed >= 0) chosen.speed = speed;
+  if (said.has("with")) chosen.beside = said.get("with").split(",").map((one) => Number(one) - 1).filter((order) => order in others(data));
   const road = Number(said.get("road")) - 1;
   if (said.has("road") && road in severalRoads(data)) chosen.road = road;
 }
 
 function address(warm = temperatures[warmth]) {
-  const { place, view, pressure, speed } = chosen;
-  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${severalRoads(data).length ? `&road=${chosen.road + 1}` : ""}${addressed(warm)}`;
+  const { place, view, pressure, speed } = chosen, measure = chosen.unit === "mm/s" ? "" : `&unit=${chosen.unit}`;
+  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${measure}${severalRoads(data).length ? `&road=${chosen.road + 1}` : ""}${others(data).length ? `&with=${chosen.beside.map((order) => order + 1).join(",")}` : ""}${addressed(warm)}`;
 }
 
-/** Choose, within what there is, and draw; many choices in one frame are drawn once. */
-function choose(changes) {
+/** Choose, within what there is, and draw; many choices in one frame are drawn once. Who chooses a speed ends the play. */
+function choose(changes, played = false) {
+  if ("speed" in changes && !played) stopPlaying();
   Object.assign(chosen, changes);
   chosen.pressure = Math.min(data.pressures.length - 1, Math.max(0, chosen.pressure));
   chosen.speed = Math.min(data.speeds.length - 1, Math.max(0, chosen.speed));
@@ -60,11 +63,12 @@ function makeControls() {
     byId("places").append(option("place", place, ...label));
   }
   byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
-  data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(data.colours.pressures[order], DASHES[order % DASHES.length]), plain(pressure))));
+  byId("units").append(...Object.keys(UNITS).map((name) => option("unit", name, name)));
+  data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(DASHES[order % DASHES.length]), plain(pressure))));
   byId("speed").max = data.speeds.length - 1;
   byId("speed").disabled = data.speeds.length < 2;
   byId("choices").addEventListener("change", ({ target }) => choose({ [target.name]: target.value }));
-  byId("scene-choices").addEventListener("input", ({ target }) => choose({ [target.name]: Number(target.value) }));
+  byId("scene-choices").addEventListener("input", ({ target }) => choose({ [target.name]: target.type === "checkbox" ? ticked(target.name) : Number(target.value) }));
   for (const form of document.forms) form.addEventListener("submit", (event) => event.preventDefault());
   const steps = { ArrowLeft: ["speed", -1], ArrowRight: ["speed", 1], ArrowDown: ["pressure", -1], ArrowUp: ["pressure", 1] };
   byId("chart").addEventListener("keydown", (event) => {
@@ -74,18 +78,28 @@ function makeControls() {
     choose({ [axis]: chosen[axis] + step });
   });
   window.addEventListener("hashchange", () => { readAddress(); if (!otherTemperature()) choose({}); });
+  darkness.addEventListener("change", () => { dress(darkness.matches); choose({}); });
+  window.addEventListener("beforeprint", () => { dress(false); draw(); });
+  window.addEventListener("afterprint", () => { dress(darkness.matches); draw(); });
   let width = window.innerWidth;
   window.addEventListener("resize", () => { if (window.innerWidth !== width) { width = window.innerWidth; choose({}); } });
 }
 
+function ticked(name) { return [...document.getElementsByName(name)].filter((input) => input.checked).map((input) => Number(input.value)); }
+
 function showControls() {
+  showPlay();
   byId("roads").hidden = !severalRoads(data).length || !["total", "whole"].includes(chosen.place);
-  for (const [name, value] of Object.entries(chosen)) {
+  for (const [name, value] of Object.entries(chosen).filter(([key]) => key !== "beside")) {
     for (const input of document.getElementsByName(name)) input.checked = input.value === String(value);
   }
   byId("speed").value = chosen.speed;
   byId("speed").setAttribute("aria-valuetext", speedOf(data.speeds[chosen.speed]));
   byId("speed-value").textContent = speedOf(data.speeds[chosen.speed]);
+  byId("speed-others").textContent = otherUnits(data.speeds[chosen.speed]);
+  const labels = speedLabels(data.speeds, byId("speed").clientWidth + 90), last = Math.max(1, data.speeds.length - 1);
+  byId("speed-ticks").replaceChildren(...labels.map((label, order) => element("span", { style: `--at: ${order / last}` }, label)));
+  document.querySelectorAll("#pressures line").forEach((line, order) => line.setAttribute("stroke", pressureColour(data, order)));
 }
 
 // ---- Words and numbers ----
@@ -150,14 +164,20 @@ function showScene(place) {
   const picture = pictureOf(scene);
   byId("small-pictures").replaceChildren();
   byId("energies").replaceChildren(...(picture ? energyScale(data.energies, data.colours.energy) : []));
-  byId("picture").hidden = !picture;
-  byId("spot").hidden = !(picture && scale.period);
+  byId("picture").hidden = !picture || Boolean(playing?.moves);
+  byId("passing").hidden = !picture || !playing?.moves;
+  byId("spot").hidden = !(picture && scale.period) || Boolean(playing?.moves);
+  if (playing) playing.moving = [];
   byId("caption").replaceChildren();
   byId("numbers").replaceChildren();
   byId("warnings").replaceChildren(...warningsOf([[place, scene]]));
   if (place === "whole" && severalRoads(data).length) byId("numbers").append(...roadsTable(data, chosen, scene));
   if (scene) byId("numbers").append(sceneNumbers(scene));
   if (!picture) return null;
+  if (playing?.moves) {
+    byId("caption").textContent = showPassing(place, picture, scale);
+    return null;
+  }
   const how = picture.finite
     ? "Displacements are to scale; the white lines made squares before deformation."
     : `Small strain: only vertical displacements are shown, to scale, without the mean compression of ${percent(scene.compression)}.`;
@@ -181,7 +201,11 @@ function smallPicture(road) {
   const place = period ? "whole" : String(number);
   const picture = pictureOf(sceneAt(place));
   const button = element("button", { type: "button", class: period ? "small wide" : "small", title: `Show ${period ? "the " : ""}${name}` });
-  if (picture) button.append(paintSmall(picture, road, frame(road), period ? 1400 : 320, colours, data.energies));
+  if (picture && playing?.moves) {
+    const moving = passing(picture, road, period ? { ...frame(road), right: frame(road).left + period } : frame(road), period ? 1400 : 320);
+    playing.moving.push(moving);
+    button.append(moving.canvas);
+  } else if (picture) button.append(paintSmall(picture, road, frame(road), period ? 1400 : 320, colours, data.energies));
   button.append(name);
   button.addEventListener("click", () => { choose({ place }); byId("places").querySelector(`[value="${place}"]`).focus(); });
   return button;
@@ -191,10 +215,13 @@ function showTotal() {
   const pictured = data.whole && pictureOf(sceneAt("whole"));
   const shown = [...data.scales.map(({ number }) => String(number)), ...(data.whole ? ["whole"] : [])];
   const scenes = shown.map((place) => [place, sceneAt(place)]);
+  if (playing) playing.moving = [];
+  byId("passing").hidden = true;
   byId("small-pictures").replaceChildren(...[...(pictured ? [roadOf("whole")] : []), ...data.scales].map(smallPicture));
   byId("energies").replaceChildren();
+  if (numbers) byId("small-pictures").append(element("div", { class: "energies" }, ...energyScale(data.energies, data.colours.energy)));
   byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
-    "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored." +
+    "Pictures: the block on the whole road and on each scale, each in its own size." +
     (severalRoads(data).length ? ` The whole road in the picture is ${roadName(data, chosen.road)}.` : "");
   byId("spot").hidden = true;
   byId("numbers").replaceChildren(totalNumbers(data, chosen));
@@ -208,6 +235,8 @@ function showTotal() {
 // ---- Drawing ----
 
 function draw() {
+  unit = chosen.unit;
+  showOthers(data, chosen);
   showControls();
   showWords();
   const chart = byId("chart");
@@ -216,6 +245,7 @@ function draw() {
   const charted = Plotly.react(chart, plot.traces, { ...plot.layout, ...size }, CONFIG);
   drawn = Promise.all([charted, chosen.place === "total" ? showTotal() : showScene(chosen.place)]).then(() => {
     for (const id of ["chart", "picture"]) listen(byId(id));
+    byId("numbers-card").hidden = !byId("numbers").children.length;
     document.body.dataset.shown = address();
   });
 }
@@ -236,7 +266,7 @@ async function begin() {
   Object.assign(chosen, { pressure: first.pressure, speed: first.speed });
   readAddress();
   if (data.whole?.windows) WAY_NAMES.direct = "the profile itself";
-  for (const make of [showAbout, makeControls, makeTemperatures, () => makeRoads(data)]) make();
+  for (const make of [showAbout, makeControls, makeTemperatures, makePlay, () => makeRoads(data), () => makeOthers(data)]) make();
   document.querySelector("main").hidden = false;
   try {
     [numbers] = await Promise.all([unpack(data.pictures), loadLibrary()]);

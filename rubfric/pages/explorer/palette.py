@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,26 +12,31 @@ from plotly import colors
 _ORDERED, _LIGHTEST = "Plasma", 0.76
 # Scales are added up, so that they need distinct colours more than ordered ones: the kinds of the figures.
 _SCALES = ("#332288", "#cc6677", "#117733", "#ddaa33", "#88ccee", "#882255", "#44aa99", "#999933", "#aa4499")
+# Other rubbers and roads beside the ordered curves: none of their hues.
+_BESIDE = ("#117733", "#44aa99", "#999933", "#88ccee", "#666666")
 
 
-def palette(pressures: int, scales: int) -> dict[str, Any]:
+def palette(pressures: int, scales: Sequence[int]) -> dict[str, Any]:
     """Return the colours of pressures and scales, and evenly spaced stops of the two maps, from low to high.
 
     Parameters
     ----------
-    pressures, scales : int
+    pressures : int
         How many of them.
+    scales : sequence of int
+        Their numbers, from 1 for the longest wave: a scale has its colour in every campaign.
 
     Returns
     -------
     dict
-        ``pressures``, ``scales``, ``energy`` and ``friction``: hexadecimal colours.
+        ``pressures``, ``scales``, ``beside``, ``energy`` and ``friction``: hexadecimal colours.
     """
     places = np.linspace(0.0, _LIGHTEST, pressures).tolist()
     ordered = colors.sample_colorscale(_ORDERED, places, colortype="tuple")
     return {
         "pressures": [_hexadecimal(colour) for colour in ordered],
-        "scales": [_SCALES[place % len(_SCALES)] for place in range(scales)],
+        "scales": [_SCALES[(number - 1) % len(_SCALES)] for number in scales],
+        "beside": list(_BESIDE),
         "energy": _stops("Viridis"),
         "friction": _stops("dense"),
     }
