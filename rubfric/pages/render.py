@@ -31,6 +31,9 @@ _EXPLORER = (
     "compare.js",
     "temperatures.js",
     "play.js",
+    "scene.js",
+    "saved.js",
+    "controls.js",
     "explorer.js",
 )
 # What each page is made of beside its code; scripts in the order in which the browser reads them.

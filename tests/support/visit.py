@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import axe_core_python
 from selenium.webdriver import Chrome, ChromeOptions
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.remote.webdriver import WebDriver
@@ -161,3 +162,21 @@ def traces(browser: WebDriver, plot: str) -> list[dict[str, Any]]:
     """
     found: list[dict[str, Any]] = browser.execute_script(script, plot)
     return found
+
+
+def violations(browser: WebDriver) -> list[str]:
+    """Return what axe-core finds against WCAG 2 A and AA, contrast included: rule, number of places, and the first."""
+    browser.execute_script(Path(axe_core_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8"))
+    script = """
+    const done = arguments[arguments.length - 1];
+    axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }).then((found) => done(found.violations.map(
+      ({ id, nodes }) => `${id} at ${nodes.length}: ${nodes[0].html.slice(0, 120)} ${nodes[0].failureSummary.slice(0, 300)}`)));
+    """
+    return list(browser.execute_async_script(script))
+
+
+def colours(browser: WebDriver, dark: bool = False, still: bool = False) -> None:
+    """Have a visitor who prefers dark colours, or as little motion as can be."""
+    preferred = {"prefers-color-scheme": "dark" if dark else "light", "prefers-reduced-motion": "reduce" if still else ""}
+    features = [{"name": name, "value": value} for name, value in preferred.items()]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})

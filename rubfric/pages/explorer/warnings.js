@@ -25,9 +25,10 @@ function whose(place) {
   return place.startsWith("whole") ? roadName(data, Number(place.slice(5)) - 1) : `scale ${place}`;
 }
 
-/** A warning and whom it is about, in lines that fit under a pointer. */
-function warningLines(data, place, pressure, speed) {
-  return [...warningsAt(data, place, pressure, speed)].flatMap(([words, places]) => {
+/** The first warnings and whom they are about, in lines that fit under a pointer. */
+function warningLines(data, place, pressure, speed, most = 3) {
+  const said = [...warningsAt(data, place, pressure, speed)], more = said.length - most;
+  const lines = said.slice(0, most).flatMap(([words, places]) => {
     const lines = [""];
     for (const word of `△ ${sentence(places.map(whose).join(", ")).slice(0, -1)}: ${words}`.split(" ")) {
       if (lines[lines.length - 1].length + word.length > 56) lines.push("");
@@ -35,6 +36,7 @@ function warningLines(data, place, pressure, speed) {
     }
     return lines;
   });
+  return more > 0 ? [...lines, `△ and ${more} more`] : lines;
 }
 
 /** A triangle around every point that carries a warning; ``at`` gives the abscissa and the ordinate of a point. */

@@ -129,7 +129,7 @@ function marksWords(curve, { view, place, pressure }, data) {
   const rings = curve.peaks.some(({ kind }) => kind === "peak");
   const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
   const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
-  const sum = place === "total" && view === "curves" ? `Dashed: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
+  const sum = place === "total" && view === "curves" ? `Thin dashes: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
   const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was not solved at once there." : "";
   const apart = place === "whole" && view === "curves" && severalRoads(data).length
     ? `Circles: each ${data.whole.windows ? "window" : "random road"} at ${pressureOf(data.pressures[pressure])}, filled the one that is shown.` : "";
