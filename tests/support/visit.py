@@ -177,6 +177,9 @@ def violations(browser: WebDriver) -> list[str]:
 
 def colours(browser: WebDriver, dark: bool = False, still: bool = False) -> None:
     """Have a visitor who prefers dark colours, or as little motion as can be."""
-    preferred = {"prefers-color-scheme": "dark" if dark else "light", "prefers-reduced-motion": "reduce" if still else ""}
+    preferred = {
+        "prefers-color-scheme": "dark" if dark else "light",
+        "prefers-reduced-motion": "reduce" if still else "",
+    }
     features = [{"name": name, "value": value} for name, value in preferred.items()]
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})

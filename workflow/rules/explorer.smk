@@ -38,7 +38,9 @@ rule explorer:
             ],
             "roads": [road_number(name) for name in [*EXPLORED, *WHOLE]],
             "shown": TEMPERATURE,
-            "others": [(*pair, PAIR_TABLES[pair], COLLECTED_OF[pair]) for pair in BESIDE],
+            "others": [
+                (*pair, PAIR_TABLES[pair], COLLECTED_OF[pair]) for pair in BESIDE
+            ],
         },
     message:
         "The campaign to explore in a browser: {output}"

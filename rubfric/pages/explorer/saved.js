@@ -124,7 +124,7 @@ function drawScale(pen, { stops, range: [low, high] }, left, top, wide) {
 /** A plot as an image, as large as it is on the screen. */
 async function plotImage(plot) {
   const { width, height } = plot._fullLayout;
-  const image = element("img", { src: await Plotly.toImage(plot, { format: "png", width, height, scale: 3 }) });
+  const image = element("img", { src: await Plotly.toImage(plot, { format: "png", width, height, scale: 2 }) });
   await image.decode();
   return image;
 }

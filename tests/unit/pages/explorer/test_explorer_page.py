@@ -100,7 +100,8 @@ def test_same_campaign_gives_the_same_page(make_campaign: CampaignMaker) -> None
 @pytest.mark.parametrize("count", [1, 2, 6, 11])
 def test_colours_are_those_of_the_figures(count: int) -> None:
     found = [
-        [int(colour[place : place + 2], 16) / 255 for place in (1, 3, 5)] for colour in palette(count, range(1, 5))["pressures"]
+        [int(colour[place : place + 2], 16) / 255 for place in (1, 3, 5)]
+        for colour in palette(count, range(1, 5))["pressures"]
     ]
     wanted = [colour[:3] for colour in style.colours(count)]
     assert np.abs(np.array(found) - np.array(wanted)).max() < 0.03
