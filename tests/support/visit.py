@@ -169,8 +169,9 @@ def violations(browser: WebDriver) -> list[str]:
     browser.execute_script(Path(axe_core_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8"))
     script = """
     const done = arguments[arguments.length - 1];
+    const words = ({ html, failureSummary }) => `${html.slice(0, 120)} ${failureSummary.slice(0, 300)}`;
     axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }).then((found) => done(found.violations.map(
-      ({ id, nodes }) => `${id} at ${nodes.length}: ${nodes[0].html.slice(0, 120)} ${nodes[0].failureSummary.slice(0, 300)}`)));
+      ({ id, nodes }) => `${id} at ${nodes.length}: ${words(nodes[0])}`)));
     """
     return list(browser.execute_async_script(script))
 
