@@ -26,11 +26,11 @@ function makeOthers(data) {
 }
 
 function showOthers(data, chosen) {
-  byId("others").hidden = !others(data).length || chosen.view !== "curves" || !comparable(data, chosen.place);
+  byId("comparison").hidden = !others(data).length || chosen.view !== "curves" || !comparable(data, chosen.place);
   const stops = data.colours.beside;
   document.querySelectorAll("#others line").forEach((line, order) => line.setAttribute("stroke", visible(stops[order % stops.length])));
   for (const input of document.getElementsByName("beside")) input.checked = chosen.beside.includes(Number(input.value));
-  byId("beside").replaceChildren(...(byId("others").hidden ? [] : compared(data, chosen).map((other) => besideWords(data, chosen, other))));
+  byId("beside").replaceChildren(...(byId("comparison").hidden ? [] : compared(data, chosen).map((other) => besideWords(data, chosen, other))));
 }
 
 /** Friction of another at the chosen speed and pressure, and by how much it is more or less. */
