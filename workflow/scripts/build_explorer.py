@@ -87,7 +87,7 @@ def main(
             1.0 / len(set(temperatures)),
             {name: rows_at(pair, one) for name, pair in pairs.items()},
         )
-    write_page(page(together(payloads, shown)), output)
+    write_page(page(together(payloads, shown), "index.html"), output)
 
 
 def read(path: str, digest: str, number: int) -> Iterator[xr.Dataset]:

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from plotly import colors
 
+from rubfric.figures.palette import scale_colour
+
 # Ordered curves run over the same part of the same map as in the figures: its lightest quarter is too pale on white.
 _ORDERED, _LIGHTEST = "Plasma", 0.76
-# Scales are added up, so that they need distinct colours more than ordered ones: the kinds of the figures.
-_SCALES = ("#332288", "#cc6677", "#117733", "#ddaa33", "#88ccee", "#882255", "#44aa99", "#999933", "#aa4499")
 # Other rubbers and roads beside the ordered curves: none of their hues.
 _BESIDE = ("#117733", "#44aa99", "#999933", "#88ccee", "#666666")
 
@@ -35,7 +35,7 @@ def palette(pressures: int, scales: Sequence[int]) -> dict[str, Any]:
     ordered = colors.sample_colorscale(_ORDERED, places, colortype="tuple")
     return {
         "pressures": [_hexadecimal(colour) for colour in ordered],
-        "scales": [_SCALES[(number - 1) % len(_SCALES)] for number in scales],
+        "scales": [scale_colour(number) for number in scales],
         "beside": list(_BESIDE),
         "energy": _stops("Viridis"),
         "friction": _stops("dense"),

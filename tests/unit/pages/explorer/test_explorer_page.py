@@ -65,6 +65,12 @@ def test_page_refers_to_nothing_outside(read: Reader) -> None:
     assert not {"img", "iframe", "object", "embed"} & set(read.tags)
 
 
+def test_page_leads_back_to_that_of_all_results(make_campaign: CampaignMaker) -> None:
+    reader = Reader()
+    reader.feed(page(made(make_campaign()), "index.html"))
+    assert reader.addresses == ["data:,", "index.html"]
+
+
 def test_names_stay_words(read: Reader) -> None:
     assert json.loads(read.text["payload"])["about"]["rubber"] == NAME
     assert read.text["title"].strip() == f"Friction of rubber {NAME} on road road"
@@ -75,7 +81,9 @@ def test_every_asset_is_packaged() -> None:
     patterns = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["rubfric"]
     folder = root / "rubfric"
     used = {
-        path for name in ("table", "claims", "rubber", "road", "slide", "areal", "explorer") for path in assets(name)
+        path
+        for name in ("table", "claims", "index", "rubber", "road", "slide", "areal", "explorer")
+        for path in assets(name)
     }
     for path in used:
         assert any(fnmatch(path.relative_to(folder).as_posix(), pattern) for pattern in patterns)
