@@ -148,10 +148,11 @@ function mapPlot(data, chosen, width) {
     colorbar: { thickness: 10, outlinewidth: 0, title: { text: "μ" }, tickformat: ".3~g", len: 1, x: 1.01, xpad: 6 },
   };
   const marks = { ...rings, mode: "markers", hoverinfo: "skip", marker: { symbol: "circle", size: 8, color: "#ffffff", line: { width: 1.8, color: LIGHT.ink } } };
+  const warned = warningMarks(data, chosen.place, (pressure, speed) => [speed - (roomy ? 0.36 : 0), pressure + (roomy ? 0.34 : 0)]);
   const [x, y] = [chosen.speed, chosen.pressure];
   const ticks = (tickvals, ticktext) => ({ tickvals, ticktext, range: [-0.5, tickvals.length - 0.5], showgrid: false, ticks: "", tickangle: 0 });
   return {
-    traces: [cells, marks, warningMarks(data, chosen.place, (pressure, speed) => [speed - (roomy ? 0.38 : 0), pressure + (roomy ? 0.3 : 0)])],
+    traces: [cells, marks, { ...warned, marker: { symbol: "triangle-up", size: 11, color: "#ffffff", line: { width: 1.8, color: LIGHT.warning } } }],
     layout: {
       ...LOOK, margin: { l: 58, r: 14, t: 10, b: 52 }, showlegend: false, hovermode: "closest", dragmode: false,
       xaxis: { ...AXIS, ...ticks(speeds, speedLabels(data.speeds, width - 50)), title: titled(`sliding speed (${unit})`) },
