@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import axe_core_python
 import pytest
 from selenium.webdriver.remote.webdriver import WebDriver
 from synthetic_campaign import make_campaign, make_totals
 from synthetic_site import make_site
-from visit import console_errors, resize
+from visit import console_errors, resize, violations
 
 pytestmark = pytest.mark.thorough
 NAMES = ("index.html", "claims.html", "tables/friction_total.html")
-AXE = next(Path(axe_core_python.__file__).parent.rglob("axe.min.js"))
 # A4 within the margins of the pages, lying, at 96 pixels an inch.
 PAPER = 1047
 
@@ -39,9 +37,7 @@ def test_page_fits_every_screen_and_has_no_barrier(browser: WebDriver, site: Pat
         for width in (390, 800, 1400):
             resize(browser, width, 900)
             assert browser.execute_script("return document.documentElement.scrollWidth") <= width
-        browser.execute_script(AXE.read_text(encoding="utf-8"))
-        found = browser.execute_async_script("axe.run().then(arguments[0])")
-        assert [(one["id"], one["nodes"][0]["html"]) for one in found["violations"]] == []
+        assert violations(browser) == []
     assert console_errors(browser) == []
 
 
