@@ -10,7 +10,8 @@ from urllib.parse import unquote
 import numpy as np
 import pandas as pd
 import pytest
-from page_links import Page, broken_links
+from check import Page
+from page_links import page_faults
 from project_copy import Plan, Project
 
 from rubfric.results.campaign import read
@@ -113,7 +114,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
 
 
 def test_pages_lead_to_what_there_is_and_the_first_to_all(template: Project) -> None:
-    assert broken_links(template.results) == []
+    assert page_faults(template.results) == []
     linked = {(template.results / unquote(link)).resolve() for link in Page(template.results / "index.html").links}
     shown = [
         *template.results.glob("*.html"),
