@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import rubfric
 from rubfric.checks import written
 from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import not_covered, which
 from rubfric.config.plausibility import check_plausible
@@ -121,8 +122,6 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
     for (_, row), share in zip(table.iterrows(), shares.to_numpy(), strict=True):
         cells = [written(row[name]) if name in _AXES else _number(row[name]) for name in heads]
         rows.append([*cells, row["way"], *("-" if math.isnan(one) else f"{one:.1%}" for one in share)])
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     notes = table.loc[table["note"] != "", ["way", "note"]].value_counts(sort=False)
     about = [f"{way}, {count} of {len(table)} points: {note}" for (way, note), count in notes.items()]
     if warned := int((table["warnings"] > 0).sum()):
@@ -131,7 +130,7 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
         [
             campaign.words(),
             "",
-            *lines,
+            *aligned(rows),
             "",
             *about,
             "error: absolute, the sum of the parts beside it; scale 1, ...: shares of the sum over the scales",
@@ -152,10 +151,6 @@ def _shares(table: pd.DataFrame) -> pd.DataFrame:
     return table.filter(regex=f"^{_SCALE}").div(total.where(total != 0.0), axis=0)
 
 
-def _or_null(value: Any) -> Any:
-    return None if isinstance(value, float) and math.isnan(value) else value
-
-
 def _number(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.4g}"
 
@@ -170,10 +165,9 @@ def as_json(campaign: Campaign, table: pd.DataFrame) -> str:
     table : pandas.DataFrame
         As from ``rubfric.total_simulation.friction``.
     """
-    shares = _shares(table).to_numpy().tolist()
     rows = [
-        {name: _or_null(value) for name, value in row.items()} | {"shares": [_or_null(one) for one in share]}
-        for row, share in zip(table.to_dict("records"), shares, strict=True)
+        with_nulls(row) | {"shares": [*with_nulls(share).values()]}
+        for row, share in zip(table.to_dict("records"), _shares(table).to_dict("records"), strict=True)
     ]
     about = {
         "program": f"rubfric {rubfric.__version__}",

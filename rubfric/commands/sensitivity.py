@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
+from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
@@ -57,8 +59,12 @@ def add_sensitivity(commands: Any, configs: Callable[[list[Path]], list[Path]]) 
     )
     for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
         command.add_argument(
-            f"--{name}", metavar=f"{name[0].upper()},...", help=f"{what}, with commas between (default: the middle)"
+            f"--{name}",
+            action=Numbers,
+            metavar=f"{name[0].upper()},...",
+            help=f"{what}, with commas between (default: the middle)",
         )
+    take_negative_lists(command)
     command.add_argument("--temperature", type=float, metavar="T", help="of a rubber with shift factors, degC")
     command.add_argument(
         "--scale", default=ALL, metavar="N", help="scale of the road, 1 being the coarsest (default: all at once)"
@@ -92,9 +98,7 @@ def _sensitivity(options: argparse.Namespace) -> int:
         raise InvalidInput(f"--scale is {options.scale!r}, but must be the number of a scale, or {ALL}")
     scale = ALL if options.scale == ALL else int(options.scale)
     points = [
-        (velocity, pressure)
-        for velocity in _numbers("velocity", "mm/s", options.velocity)
-        for pressure in _numbers("pressure", "MPa", options.pressure)
+        (velocity, pressure) for velocity in options.velocity or [None] for pressure in options.pressure or [None]
     ]
     change = _share(options.range)
     if options.output and len(points) > 1:
@@ -102,8 +106,7 @@ def _sensitivity(options: argparse.Namespace) -> int:
     for path in options.output or []:
         if path.suffix not in (".pdf", ".png"):
             raise InvalidInput(f"--output is {path}, but its name must end in .pdf or .png")
-    speeds = [one for one, _ in points if one is not None] or campaign.velocities
-    loads = [one for _, one in points if one is not None] or campaign.pressures
+    speeds, loads = options.velocity or campaign.velocities, options.pressure or campaign.pressures
     for sentence in check_plausible(campaign.material, campaign.road, speeds, loads):
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if campaign.others:
@@ -139,14 +142,8 @@ def _sensitivity(options: argparse.Namespace) -> int:
     return 0
 
 
-def _numbers(name: str, unit: str, text: str | None) -> list[float | None]:
-    if text is None:
-        return [None]
-    try:
-        given = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
-    return [Number(unit=unit).check(name, one) for one in given]
+def _checked(name: str, unit: str, values: list[float] | None) -> list[Any]:
+    return [None] if values is None else [Number(unit=unit).check(name, one) for one in values]
 
 
 def _share(text: str) -> float:
@@ -189,7 +186,7 @@ def _columns(table: pd.DataFrame, share: str) -> list[str]:
         size = "-" if math.isnan(change) else f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"
         there = "-" if math.isnan(row["changed_to"]) else f"{row['changed_to']:.4g}"
         rows.append([row["parameter"], f"{row['value']:.4g}", row["unit"], *sensitivity, there, size])
-    return _aligned(rows)
+    return aligned(rows)
 
 
 def _indices(table: pd.DataFrame) -> list[str]:
@@ -200,12 +197,7 @@ def _indices(table: pd.DataFrame) -> list[str]:
             for name in ("first_order", "total_order")
         )
         rows.append([row["parameter"], *cells])
-    return _aligned(rows)
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
+    return aligned(rows)
 
 
 def _with_error(value: float, error: float) -> tuple[str, str]:
@@ -213,10 +205,6 @@ def _with_error(value: float, error: float) -> tuple[str, str]:
         return "-", "-"
     decimals = min(max(0, 1 - math.floor(math.log10(error))), 6) if 0.0 < error < math.inf else 3
     return f"{value:+.{decimals}f}", f"{error:.{decimals}f}"
-
-
-def _plain(row: dict[str, Any]) -> dict[str, Any]:
-    return {name: None if isinstance(one, float) and not math.isfinite(one) else one for name, one in row.items()}
 
 
 def _point(found: Sensitivities) -> dict[str, Any]:
@@ -234,9 +222,9 @@ def as_json(found: list[Sensitivities]) -> str:
             "friction_error": one.friction_error,
             "kinematics": one.kinematics,
             "change": one.change,
-            "rows": [_plain(row) for row in one.table.to_dict("records")],
+            "rows": [with_nulls(row) for row in one.table.to_dict("records")],
             "identities": [vars(identity) for identity in one.identities],
-            "sobol": None if one.sobol is None else [_plain(row) for row in one.sobol.to_dict("records")],
+            "sobol": None if one.sobol is None else [with_nulls(row) for row in one.sobol.to_dict("records")],
             "notes": [*one.notes],
             "sentences": one.sentences(),
         }

@@ -78,7 +78,7 @@ def dead_links(folder: Path, pages: Mapping[Path, Page]) -> list[str]:
             aim = (path.parent / unquote(target.path)).resolve() if target.path else path
             # What an explorer shows is chosen by KEY=VALUE after the #: it has no such id.
             choice = "=" in target.fragment
-            if not aim.is_file():
+            if not aim.exists():
                 found.append(f"{path.relative_to(folder)} links to {link}, which is not there")
             elif aim in pages and not choice and unquote(target.fragment) not in pages[aim].anchors:
                 found.append(f"{path.relative_to(folder)} links to {link}, where nothing has that name")
