@@ -7,6 +7,7 @@ import json
 import math
 import sys
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -97,17 +98,17 @@ def _sensitivity(options: argparse.Namespace) -> int:
     if options.scale != ALL and not options.scale.isdecimal():
         raise InvalidInput(f"--scale is {options.scale!r}, but must be the number of a scale, or {ALL}")
     scale = ALL if options.scale == ALL else int(options.scale)
-    points = [
-        (velocity, pressure) for velocity in options.velocity or [None] for pressure in options.pressure or [None]
-    ]
+    speeds: list[Any] = [Number(unit="mm/s").check("velocity", one) for one in options.velocity or ()]
+    loads: list[Any] = [Number(unit="MPa").check("pressure", one) for one in options.pressure or ()]
+    points = list(product(speeds or [None], loads or [None]))
     change = _share(options.range)
     if options.output and len(points) > 1:
         raise InvalidInput(f"--output draws one speed and pressure, but {len(points)} are given: leave one")
     for path in options.output or []:
         if path.suffix not in (".pdf", ".png"):
             raise InvalidInput(f"--output is {path}, but its name must end in .pdf or .png")
-    speeds, loads = options.velocity or campaign.velocities, options.pressure or campaign.pressures
-    for sentence in check_plausible(campaign.material, campaign.road, speeds, loads):
+    grid = speeds or campaign.velocities, loads or campaign.pressures
+    for sentence in check_plausible(campaign.material, campaign.road, *grid):
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if campaign.others:
         print(f"rubfric: {which(campaign)}", file=sys.stderr)
