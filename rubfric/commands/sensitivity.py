@@ -143,10 +143,6 @@ def _sensitivity(options: argparse.Namespace) -> int:
     return 0
 
 
-def _checked(name: str, unit: str, values: list[float] | None) -> list[Any]:
-    return [None] if values is None else [Number(unit=unit).check(name, one) for one in values]
-
-
 def _share(text: str) -> float:
     try:
         return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)

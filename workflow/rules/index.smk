@@ -119,7 +119,7 @@ IN_GROUPS = {
     ],
 }
 # Beside these, what no job makes, or not by default.
-BESIDE = {
+NOT_AWAITED = {
     "Logs and other pages": [
         (
             "report: figures and tables with captions",
@@ -161,7 +161,7 @@ rule index_page:
             "ranking": COMPARISON.get("rankingcsv", ""),
             "title": TITLE,
             "figures": {name: SHOWN_FIGURES[name] for name in DRAWN},
-            "groups": {**IN_GROUPS, **BESIDE},
+            "groups": {**IN_GROUPS, **NOT_AWAITED},
             "temperature": TEMPERATURE,
         },
         understood=lambda wildcards: understood(CAMPAIGN, OWN_CAMPAIGN),
