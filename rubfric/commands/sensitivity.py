@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
+from rubfric.checks import decimals
 from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
@@ -200,8 +201,8 @@ def _indices(table: pd.DataFrame) -> list[str]:
 def _with_error(value: float, error: float) -> tuple[str, str]:
     if math.isnan(value):
         return "-", "-"
-    decimals = min(max(0, 1 - math.floor(math.log10(error))), 6) if 0.0 < error < math.inf else 3
-    return f"{value:+.{decimals}f}", f"{error:.{decimals}f}"
+    places = min(max(0, decimals(error, 2)), 6) if 0.0 < error < math.inf else 3
+    return f"{value:+.{places}f}", f"{error:.{places}f}"
 
 
 def _point(found: Sensitivities) -> dict[str, Any]:
