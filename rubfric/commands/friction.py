@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
 from rubfric.checks import written
+from rubfric.commands.configs import add_configs, warn
 from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
-from rubfric.config.pairs import not_covered, which
+from rubfric.config.pairs import not_covered
 from rubfric.config.plausibility import check_plausible
 from rubfric.config.temperature import rubber_at
 
@@ -62,9 +62,7 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    command.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
+    add_configs(command)
     for name, what in (
         ("velocity", "sliding speeds, mm/s"),
         ("pressure", "nominal pressures, MPa"),
@@ -94,10 +92,7 @@ def _friction(options: argparse.Namespace) -> int:
 
     asked = at_points(campaign, *points)
     warm = {one: rubber_at(asked.material, asked.shift, one) for one in asked.temperatures}
-    for sentence in check_plausible(asked.material, asked.road, asked.velocities, asked.pressures, warm):
-        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    warn(campaign, check_plausible(asked.material, asked.road, asked.velocities, asked.pressures, warm))
     table = friction(asked, jobs=options.jobs, progress=not options.quiet)
     if options.csv:
         print(table.to_csv(index=False, float_format="%.6g"), end="")

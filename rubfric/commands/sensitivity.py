@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 import rubfric
 from rubfric.checks import decimals
+from rubfric.commands.configs import add_configs, warn
 from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
-from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput
 from rubfric.rules import Number
@@ -56,9 +56,7 @@ def add_sensitivity(commands: Any, configs: Callable[[list[Path]], list[Path]]) 
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    command.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
+    add_configs(command)
     for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
         command.add_argument(
             f"--{name}",
@@ -109,10 +107,7 @@ def _sensitivity(options: argparse.Namespace) -> int:
         if path.suffix not in (".pdf", ".png"):
             raise InvalidInput(f"--output is {path}, but its name must end in .pdf or .png")
     grid = speeds or campaign.velocities, loads or campaign.pressures
-    for sentence in check_plausible(campaign.material, campaign.road, *grid):
-        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    warn(campaign, check_plausible(campaign.material, campaign.road, *grid))
     from rubfric.studies.sensitivity.study import sensitivity  # heavy: only once the config is known to be right
 
     found = [
