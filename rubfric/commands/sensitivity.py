@@ -170,13 +170,13 @@ def _others(held: str) -> str:
 
 
 def _columns(table: pd.DataFrame, share: str) -> list[str]:
-    from rubfric.studies.sensitivity.result import with_error
+    from rubfric.studies.sensitivity.result import signed
 
     rows = [["x", "value", "unit", "d ln mu / d ln x", "error", "changed to", f"friction, {share} more"]]
     for row in table.to_dict("records"):
         sensitivity, change = _with_error(row["sensitivity"], row["sensitivity_error"]), row["friction_change"]
         error = row["friction_change_error"]
-        size = "-" if math.isnan(change) else f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"
+        size = "-" if math.isnan(change) else signed(change, error)
         there = "-" if math.isnan(row["changed_to"]) else f"{row['changed_to']:.4g}"
         rows.append([row["parameter"], f"{row['value']:.4g}", row["unit"], *sensitivity, there, size])
     return aligned(rows)
