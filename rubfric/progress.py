@@ -1,4 +1,4 @@
-"""Progress of a run of the workflow: what is done, what remains, how long that may take, what was slow or failed."""
+"""Progress of many jobs: what is done, what remains, how long that may take, what was slow or failed."""
 
 from __future__ import annotations
 
