@@ -46,6 +46,16 @@ class Grid(Entry):
         tuple[float, ...],
         Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(), least=0),
     ] = ()
+    refine: Annotated[
+        float | None,
+        Number(
+            "Add speeds where friction over speed is not known to this share of itself between the grid's, by the "
+            "estimated error of interpolation: on every scale and on the whole road, at the aspect of the grid, of the "
+            "first rubber on the first road. None are added where it is left out.",
+            low=0.001,
+            high=0.2,
+        ),
+    ] = None
 
 
 class PhasesChoice(Entry):
