@@ -100,6 +100,11 @@ class Curve:
         top = np.maximum(self.friction[1:], self.friction[:-1])
         return np.expm1(self.missed) * np.maximum(top, 0.0) / self._against(top)
 
+    @property
+    def worst(self) -> float:
+        """The largest of ``gaps``."""
+        return float(self.gaps.max())
+
     @cached_property
     def _numerical(self) -> Real:
         """The larger of the errors of both ends of each interval, as a share of friction there."""

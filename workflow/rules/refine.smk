@@ -1,0 +1,126 @@
+# Friction over speed, curve by curve: where the config asks for it with speeds added until it is known between them. A job
+# owns a curve and adds its speeds one by one, so that a further pressure runs its own curves and no others; what it has
+# solved is kept, so that a further speed of the grid, or another accuracy, solves what is new.
+CURVES = scenes_of_curves()
+REFINED = [*CURVES] if CAMPAIGN.refine else []
+ADDED = ".snakemake/added"
+# The tables of the grid's points, and of the added ones, by the name of the curve.
+CURVES_OF = {
+    **{
+        f"scale {scale}": f"{RESULTS}/tables/friction_scale_{scale}.csv"
+        for scale in CAMPAIGN.scales
+    },
+    "whole road": f"{RESULTS}/tables/friction_total.csv",
+}
+ADDED_TO = {
+    name: [
+        curve_file(curve)
+        for curve in REFINED
+        if curve.startswith(name.replace("whole road", "all").replace(" ", "") + "_p")
+    ]
+    for name in CURVES_OF
+}
+CURVE_TABLES = {
+    "curves": f"{RESULTS}/tables/curves.csv",
+    "peaks": f"{RESULTS}/tables/peaks.csv",
+    "page": f"{RESULTS}/tables/peaks.html",
+}
+# What figures draw in place of straight lines between the grid's points.
+DRAWN_CURVES = CURVE_TABLES["curves"] if REFINED else []
+
+
+if REFINED:
+
+    rule refined_curve:
+        input:
+            package_files("rubfric.curve_simulation"),
+            code=package_files("rubfric.simulation"),
+            script=script_copy("refine_curve.py"),
+            scales=lambda wildcards: [*CURVES[wildcards.curve]["scales"]],
+            whole=lambda wildcards: [
+                path
+                for paths in CURVES[wildcards.curve]["whole"].values()
+                for path in paths
+            ],
+        output:
+            curve_file("{curve}"),
+        log:
+            f"{RESULTS}/logs/refined/{RUBBER}/{ROAD}/{{curve}}.log",
+        wildcard_constraints:
+            curve="|".join(REFINED),
+        priority: 7
+        localrule: workflow.remote_exec
+        params:
+            scales=lambda wildcards: CURVES[wildcards.curve]["scales"],
+            whole=lambda wildcards: CURVES[wildcards.curve]["whole"],
+            sliding=lambda wildcards: sliding(wildcards.curve),
+            accuracy=CAMPAIGN.refine,
+            version=rubfric.__version__,
+        message:
+            "Adding speeds to {wildcards.curve}"
+        run:
+            jobs.run(
+                input.script,
+                log[0],
+                output=output[0],
+                scales=params.scales,
+                whole=params.whole,
+                sliding=params.sliding,
+                accuracy=params.accuracy,
+                kept=ADDED,
+                code=input.code,
+            )
+
+
+rule curve_table:
+    input:
+        package_files(
+            "rubfric.results.curves", "rubfric.results.tables", "rubfric.pages.table"
+        ),
+        page_files("table"),
+        script=script_copy("tabulate_curves.py"),
+        tables=CURVES_OF.values(),
+        added=[path for paths in ADDED_TO.values() for path in paths],
+    output:
+        curves=report(
+            CURVE_TABLES["curves"],
+            caption="../report/curve_table.rst",
+            category=REPORT.tables,
+            subcategory="curves",
+            labels={"table": "friction over speed, every point"},
+        ),
+        peaks=report(
+            CURVE_TABLES["peaks"],
+            caption="../report/curve_table.rst",
+            category=REPORT.tables,
+            subcategory="curves",
+            labels={"table": "peaks and half-widths", "as": "spreadsheet (CSV)"},
+        ),
+        page=report(
+            CURVE_TABLES["page"],
+            caption="../report/curve_table.rst",
+            category=REPORT.tables,
+            subcategory="curves",
+            labels={"table": "peaks and half-widths", "as": "page"},
+        ),
+    log:
+        f"{RESULTS}/logs/tables/curves.log",
+    localrule: True
+    params:
+        tables=CURVES_OF,
+        added=ADDED_TO,
+        aspect=CAMPAIGN.aspect,
+        about=(RUBBER, ROAD),
+        accuracy=CAMPAIGN.refine,
+    message:
+        "Peaks of friction over speed: {output.peaks}"
+    run:
+        jobs.run(input.script, log[0], **dict(output.items()), **dict(params.items()))
+
+
+rule curves:
+    input:
+        scene_files,
+        whole_files,
+        [curve_file(name) for name in REFINED],
+        CURVE_TABLES.values(),
