@@ -15,12 +15,12 @@ import xarray as xr
 
 from rubfric.checks import written
 from rubfric.checksums import fingerprint
-from rubfric.config.refine import MOST
 from rubfric.errors import BrokenResult, InvalidInput, NotConverged
 from rubfric.results.campaign import collect
 from rubfric.results.curves import curve_of
 from rubfric.results.dataset import write
 from rubfric.results.draws import over_draws
+from rubfric.results.limits import MOST
 from rubfric.results.provenance import refusal
 from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.tables import scale_table
@@ -123,7 +123,7 @@ def added_points(
                 refused = np.append(refused, speed)
                 progress(f"{count}: {written(speed)} mm/s has no friction: {reason}")
             else:
-                progress(f"{count}: {written(speed)} mm/s added, where the curve was off by up to {curve.worst:.2%}")
+                progress(f"{count}: {written(speed)} mm/s added, where friction may be off by {100.0 * curve.worst:.2g} %")
     return pd.concat([grid.iloc[:0], *rows[1:]], ignore_index=True)
 
 

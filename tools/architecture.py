@@ -38,7 +38,10 @@ _COLOURS = {
     "errors arrays checks checksums files markdown outputs rules streams": ("#7b8794", "#f5f7fa"),
     "rubber road columns profile dma decks scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
-    "results simulation areal_simulation areal_plane marching total_simulation": ("#1a6e8e", "#eef7fb"),
+    "results simulation areal_simulation areal_plane marching total_simulation curve_simulation": (
+        "#1a6e8e",
+        "#eef7fb",
+    ),
     "rig studies figures": ("#a16207", "#fdf8ea"),
     "pages commands cli runner": ("#882255", "#fbf0f5"),
 }

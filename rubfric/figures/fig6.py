@@ -7,6 +7,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from rubfric.figures import panels, style
 from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
+from rubfric.figures.refined import curve_points, draw_curve, found_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.results.selection import BEYOND, WORTH_A_WORD, friction, friction_error, pick, rubber_error, written
 
@@ -25,7 +27,7 @@ _CROSS = "beyond"
 
 
 @style.applied()
-def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
+def draw(campaign: xr.Dataset, aspect: float, micro: bool = True, curves: pd.DataFrame | None = None) -> Figure:
     """Draw the friction coefficient against speed, a line per pressure and a panel per scale, the finest first.
 
     Parameters
@@ -36,6 +38,9 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
         Height over width of the blocks.
     micro : bool
         Whether the finest of several scales is the paper's micro-scale.
+    curves : pandas.DataFrame, optional
+        As from ``rubfric.results.curves.curve_table``, of one temperature, where speeds were added: lines are drawn as
+        they are known between points, with their peaks.
 
     Returns
     -------
@@ -63,23 +68,28 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True) -> Figure:
     fields = [friction(campaign, aspect=aspect, scale=scale) for scale in scales]
     looks = style.lines(len(pressures))
     figure, axes = panels.arrange(len(scales), height=2.1)
-    drawn = zip(axes, scales, fields, strict=True)
+    drawn, tallest = zip(axes, scales, fields, strict=True), [upper(grid.values, errors.values).ravel()]
     for (panel, scale, field), (pressure, look) in product(drawn, zip(pressures, looks, strict=True)):
         line, error = field.sel(pressure=pressure), errors.sel(scale=scale, pressure=pressure)
         if line.notnull().any():
-            draw_band(panel, speeds, line.values, error.values, look["color"])
-            panel.plot(speeds, line.values, **look)
-            mark_peak(panel, speeds, line.values, look["color"])
+            points = curve_points(curves, scale, pressure)
+            if points is None:
+                draw_band(panel, speeds, line.values, error.values, look["color"])
+                panel.plot(speeds, line.values, **look)
+                mark_peak(panel, speeds, line.values, look["color"])
+            else:
+                tallest.append(draw_curve(panel, points, look))
             if BEYOND in campaign:
                 share = pick(campaign, BEYOND, aspect=aspect, scale=scale, pressure=pressure)
                 _cross(panel, speeds, line.where(share > WORTH_A_WORD).values)
     scale_speeds(axes[0], speeds)
-    scale_friction(axes[0], upper(grid.values, errors.values))
+    scale_friction(axes[0], np.concatenate(tallest))
     panels.entitle(axes, _titles(scales, micro))
     panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
     handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
     marks = [
         *peak_handles(*axes),
+        *found_handles(*axes),
         *_crosses(axes)[:1],
         band_handle(grid.values, errors.values, rubber=data if data is None else data.values),
     ]

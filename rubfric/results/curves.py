@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from rubfric.config.refine import MOST
 from rubfric.results.curve import Curve
+from rubfric.results.limits import MOST
 from rubfric.results.peaks import CurvePeak, find_curve_peak
 from rubfric.results.scales import AXES, TOTAL
 from rubfric.results.selection import RUBBER_ERROR
@@ -148,7 +148,10 @@ def _notes(peak: CurvePeak, curve: Curve, added: int, accuracy: float | None) ->
     if accuracy is None or curve.worst <= accuracy:
         return
     if not curve.open(accuracy).any():
-        yield f"between points only as well known as they are themselves, to {curve.worst:.2g} of friction"
+        yield (
+            f"between points known to {curve.worst:.2g} of friction, since the points are known no better themselves: "
+            "a finer preset makes them so"
+        )
     elif added >= MOST:
         yield f"{MOST} speeds were added, the most of a curve: it is known to {curve.worst:.2g} of friction"
     else:

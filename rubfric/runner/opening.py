@@ -11,8 +11,8 @@ import numpy as np
 from rubfric.config.campaign import Campaign
 from rubfric.config.pairs import which
 from rubfric.config.references import spread
-from rubfric.config.refine import MOST
 from rubfric.config.temperature import rubber_at
+from rubfric.results.limits import MOST
 from rubfric.rubber.material import Material
 from rubfric.scene.scene import Scene
 

@@ -1,9 +1,9 @@
 """Write every point of the curves of friction over speed, and their peaks."""
 
-from rubfric.config.refine import MOST
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.curves import WORDS, curve_table, peak_table
+from rubfric.results.limits import MOST
 from rubfric.results.tables import read_table, write_table
 
 
