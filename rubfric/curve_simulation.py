@@ -123,7 +123,9 @@ def added_points(
                 refused = np.append(refused, speed)
                 progress(f"{count}: {written(speed)} mm/s has no friction: {reason}")
             else:
-                progress(f"{count}: {written(speed)} mm/s added, where friction may be off by {100.0 * curve.worst:.2g} %")
+                progress(
+                    f"{count}: {written(speed)} mm/s added, where friction may be off by {100.0 * curve.worst:.2g} %"
+                )
     return pd.concat([grid.iloc[:0], *rows[1:]], ignore_index=True)
 
 

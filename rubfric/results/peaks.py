@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from rubfric.arrays import Flags, Real
 from rubfric.results.curve import Curve
+from rubfric.results.curves import ADDED, CURVE, POINT, curve_of, curves_in
+from rubfric.results.limits import MOST
+
+_BEYOND = {
+    "rising": "friction is highest at the fastest speed: the peak is there or beyond, add faster speeds",
+    "falling": "friction is highest at the slowest speed: the peak is there or beyond, add slower speeds",
+    "open": "by its error the highest friction may be at the slowest or the fastest speed: add speeds beyond",
+}
 
 
 class Between(NamedTuple):
@@ -89,3 +99,68 @@ def _first_below(places: Real, values: Real, level: float) -> float:
         return float(10.0 ** places[0])
     share = (values[at - 1] - level) / (values[at - 1] - values[at])
     return float(10.0 ** (places[at - 1] + share * (places[at] - places[at - 1])))
+
+
+def peak_table(points: pd.DataFrame, rubber: str, road: str, accuracy: float | None) -> pd.DataFrame:
+    """Return the peaks of all curves, with what errors of points and of interpolation leave open.
+
+    Parameters
+    ----------
+    points : pandas.DataFrame
+        As from ``curve_table``.
+    rubber, road : str
+        Their names.
+    accuracy : float or None
+        To which speeds were added; None where none were.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Without rows where no curve has two speeds.
+    """
+    rows = []
+    for place, curve_points in curves_in(points):
+        curve = curve_of(curve_points)
+        if curve is None:
+            continue
+        added = int((curve_points[POINT] == ADDED).sum())
+        peak = find_curve_peak(curve)
+        rows.append(
+            {"rubber": rubber, "road": road, **place, "kind": peak.kind}
+            | _described(peak)
+            | {"points": curve.speeds.size, "added": added, "interpolation_error": curve.worst}
+            | {"note": "; ".join(_notes(peak, curve, added, accuracy))}
+        )
+    return pd.DataFrame(rows) if rows else pd.DataFrame(columns=["rubber", "road", CURVE, "kind", "note"])
+
+
+def _described(peak: CurvePeak) -> dict[str, float]:
+    """Return speeds with those that they lie between, and the highest friction with its error, by column."""
+    found: dict[str, float] = {}
+    for name, of in (("peak", peak.speed), ("half_slower", peak.slower), ("half_faster", peak.faster)):
+        found |= {f"{name}_speed_mm_per_s": of.speed}
+        found |= {f"{name}_speed_low_mm_per_s": of.low, f"{name}_speed_high_mm_per_s": of.high}
+        if name == "peak":
+            found |= {"peak_friction": peak.friction, "peak_friction_error": peak.error}
+    return found
+
+
+def _notes(peak: CurvePeak, curve: Curve, added: int, accuracy: float | None) -> Iterator[str]:
+    """Yield what must be known of a peak."""
+    if peak.kind in _BEYOND:
+        yield _BEYOND[peak.kind]
+    sides = {"slower": peak.slower, "faster": peak.faster}
+    ends = {"rising": {"slower": peak.slower}, "falling": {"faster": peak.faster}}.get(peak.kind, sides)
+    if lacking := [name for name, of in ends.items() if np.isnan(of.speed)]:
+        yield f"within the speeds friction does not fall to half on the {' and the '.join(lacking)} side"
+    if accuracy is None or curve.worst <= accuracy:
+        return
+    if not curve.open(accuracy).any():
+        yield (
+            f"between points known to {curve.worst:.2g} of friction, since the points are known no better themselves: "
+            "a finer preset makes them so"
+        )
+    elif added >= MOST:
+        yield f"{MOST} speeds were added, the most of a curve: it is known to {curve.worst:.2g} of friction"
+    else:
+        yield f"known to {curve.worst:.2g} of friction, since scenes in between have no solution"

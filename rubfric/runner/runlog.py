@@ -251,7 +251,14 @@ class RunLog(logging.Handler):
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
         lines += findings(self._made.tables())
-        return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
+        return [
+            *lines,
+            *(
+                self._leftovers()
+                if {"scale_table", "total_table", "curve_table"} & set(self._progress.finished)
+                else []
+            ),
+        ]
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:

@@ -64,7 +64,7 @@ def test_command_gives_the_friction_that_the_workflow_gives(template: Project) -
 def test_tables_and_figures_are_there(template: Project) -> None:
     scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
     assert set(template.tables) == {"friction_total.csv", *scales}
-    others = {f"{name}.csv" for name in ("rig_points", "rig_rejected", "claims", "claims_evidence")}
+    others = {f"{name}.csv" for name in ("rig_points", "rig_rejected", "claims", "claims_evidence", "curves", "peaks")}
     assert {path.name for path in (template.results / "tables").glob("*.csv")} == set(template.tables) | others
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
@@ -88,7 +88,11 @@ def test_every_job_has_a_log(template: Project) -> None:
     logs = template.results / "logs"
     assert {path.stem for path in (logs / "scenes").rglob("*.log")} == set(template.scene_files)
     assert {path.stem for path in (logs / "figures").iterdir()} == FIGURES
-    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == {*template.tables, "rig_points.csv"}
+    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == {
+        *template.tables,
+        "rig_points.csv",
+        "curves.csv",
+    }
     for path in (logs / "scenes").rglob("*.log"):
         assert "\nfriction coefficient   " in path.read_text()
 
@@ -99,7 +103,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
     assert "4 of 4 scenes of the whole road" in "\n".join(lines)
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    made = f": {counts}, 5 tables, 10 figures, 6 other jobs"
+    made = f": {counts}, 6 tables, 10 figures, 6 other jobs"
     assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
     assert lines[end + 2].startswith("  largest estimated error of friction ")
@@ -136,6 +140,7 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "campaign": 1,
         "scale_table": 4,
         "total_table": 1,
+        "curve_table": 1,
         "whole_scene": 4,
         "whole_collection": 1,
         "campaign_figure": 3,
@@ -159,7 +164,7 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     done = empty_project.snakemake("-n")
     assert done.returncode == 0
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    would = f"{counts}, 5 tables, 10 figures, 6 other jobs"
+    would = f"{counts}, 6 tables, 10 figures, 6 other jobs"
     assert f"  Would be made: {would}; in about " in done.stdout
     assert "a campaign of your own, the grid and aspect_study, transient, rig, claims\n" in done.stdout
     assert len((done.stdout + done.stderr).splitlines()) < 44

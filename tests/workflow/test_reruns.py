@@ -14,7 +14,7 @@ from project_copy import Project
 TABLES = {"scale_table": 4, "total_table": 1}
 CLAIMS = {"claims": 1}
 RIG = {"rig_points": 1, "rig_figure": 1, **CLAIMS}
-TOTALS = {"total_table": 1, "total_figure": 2, **RIG, "explorer": 1}
+TOTALS = {"total_table": 1, "curve_table": 1, "total_figure": 2, **RIG, "explorer": 1}
 CAMPAIGN = {"campaign": 1, **TABLES, "campaign_figure": 3, **TOTALS}
 WHOLE = {"whole_scene": 4, "whole_collection": 1, "whole_figure": 1}
 FIELDS = {"field_figure": 2, **CLAIMS}

@@ -75,7 +75,7 @@ if REFINED:
 rule curve_table:
     input:
         package_files(
-            "rubfric.results.curves", "rubfric.results.tables", "rubfric.pages.table"
+            "rubfric.results.peaks", "rubfric.results.tables", "rubfric.pages.table"
         ),
         page_files("table"),
         script=script_copy("tabulate_curves.py"),

@@ -2,8 +2,9 @@
 
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
-from rubfric.results.curves import WORDS, curve_table, peak_table
+from rubfric.results.curves import WORDS, curve_table
 from rubfric.results.limits import MOST
+from rubfric.results.peaks import peak_table
 from rubfric.results.tables import read_table, write_table
 
 
