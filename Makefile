@@ -8,6 +8,7 @@
 # make stability run the matrix of extremes and draw its map; writes the page on it
 # make report    gather every figure and table with its caption in one page, results/report.html
 # make docs      write config/README.md, the schema of the config and the picture of the architecture anew
+# make site      build the documentation into build/site, offline: it runs every example and checks every link
 # make clean     remove results; make distclean removes the environment too
 
 PYTHON ?= python3
@@ -18,7 +19,7 @@ CONFIG ?=
 export PATH := $(abspath $(VENV))/bin:$(PATH)
 unexport PYTHONPATH
 
-.PHONY: figures report test test-all check docs bench accuracy stability format clean distclean
+.PHONY: figures report test test-all check docs bench accuracy stability site format clean distclean
 
 figures: $(VENV)/.ready
 	snakemake -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
@@ -63,6 +64,10 @@ stability: $(VENV)/.ready
 	snakemake -j$(JOBS) stability
 	python tools/benchmark/stability.py
 
+site: $(VENV)/.ready
+	sphinx-build -q -W -n --keep-going -j $(JOBS) -d build/doctrees docs build/site
+	python tools/site/check.py build/site
+
 format: $(VENV)/.ready
 	ruff check --fix .
 	ruff format .
@@ -72,7 +77,7 @@ clean:
 	rm -rf results .snakemake
 
 distclean: clean
-	rm -rf $(VENV) build *.egg-info .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) build docs/gallery docs/tutorials *.egg-info .pytest_cache .mypy_cache .ruff_cache
 
 $(VENV)/.ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "rubfric needs Python 3.11 or later; this is %s. Set PYTHON=..." % sys.version.split()[0])'

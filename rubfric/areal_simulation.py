@@ -33,11 +33,10 @@ def simulate_areal(scene: ArealScene) -> xr.Dataset:
     Examples
     --------
     >>> import rubfric
-    >>> rubber = rubfric.load().scene(scale=1, velocity=100, pressure=5).material
-    >>> road = rubfric.SelfAffine(hurst=0.8, period=1.0, cut_off=0.05, rms_slope=0.25)
-    >>> result = rubfric.simulate_areal(rubfric.ArealScene(road, velocity=100.0, pressure=0.3, material=rubber))
-    >>> float(result.friction_coefficient)  # doctest: +SKIP
-    0.134
+    >>> road = rubfric.SelfAffine(hurst=0.8, period=1.0, cut_off=0.1, rms_slope=0.25)
+    >>> scene = rubfric.ArealScene(road, velocity=100.0, pressure=0.3, material=rubfric.load().material)
+    >>> print(f"{float(rubfric.simulate_areal(scene).friction_coefficient):.1f}")
+    0.1
     """
     started = time.perf_counter()
     solution = solve_areal(scene)

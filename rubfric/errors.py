@@ -4,7 +4,17 @@ from __future__ import annotations
 
 
 class RubfricError(Exception):
-    """Base of every error that rubfric raises on purpose."""
+    """Base of every error that rubfric raises on purpose.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> try:
+    ...     rubfric.load({"plane": "bent"})
+    ... except rubfric.RubfricError as error:
+    ...     print(error)
+    plane is 'bent', but must be one of stress, strain
+    """
 
 
 class InvalidInput(RubfricError, ValueError):
@@ -14,6 +24,13 @@ class InvalidInput(RubfricError, ValueError):
     ----------
     *faults : str
         One sentence, or several on one config, which the message numbers.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> rubfric.SineScale(amplitude=-0.01, wavenumber=35)
+    Traceback (most recent call last):
+    rubfric.errors.InvalidInput: road.amplitude is -0.01 mm, but must be at least 0
     """
 
     @property
@@ -44,6 +61,15 @@ class NotConverged(RubfricError, RuntimeError):
         What ``residual`` counts, with its unit.
     advice : str
         What may help; nothing where the solver cannot tell.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> try:
+    ...     raise rubfric.NotConverged("scale1_v100_p5_aspect0.75_stress", 12, 0.03, "residual", "lower the pressure")
+    ... except rubfric.NotConverged as error:
+    ...     print(error)
+    scale1_v100_p5_aspect0.75_stress: not converged after 12 steps, residual is 0.03; lower the pressure
     """
 
     def __init__(self, scene: str, step: int, residual: float, measure: str, advice: str = "") -> None:
@@ -61,8 +87,30 @@ class NotConverged(RubfricError, RuntimeError):
 
 
 class BrokenResult(RubfricError, OSError):
-    """A result file that cannot be read or lacks what every result holds."""
+    """A result file that cannot be read or lacks what every result holds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> from rubfric.results.dataset import read
+    >>> try:
+    ...     read("nowhere.nc")
+    ... except rubfric.BrokenResult as error:
+    ...     print(str(error)[:10])
+    nowhere.nc
+    """
 
 
 class NotWritten(RubfricError, OSError):
-    """A file that the system does not let be written; the message says why and what to do."""
+    """A file that the system does not let be written; the message says why and what to do.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> result = rubfric.simulate(rubfric.load().scene(scale=1, velocity=100, pressure=0.5, kinematics="small"))
+    >>> try:
+    ...     rubfric.write(result, "/dev/null/scene.nc")
+    ... except rubfric.NotWritten as error:
+    ...     print("no file is left")
+    no file is left
+    """

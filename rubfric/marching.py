@@ -53,6 +53,17 @@ def march(
     NotConverged
         With the scene, the step and the residual, where halving a step does not help, or where columns or steps turn
         out too few: hardly a node touches the road, or the routes to friction contradict each other.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> scene = rubfric.load().scene(scale=1, velocity=100, pressure=0.5, kinematics="small")
+    >>> procedure = rubfric.Procedure(start="steady", columns=64, steps_per_wavelength=16, wavelengths=1)
+    >>> marched = rubfric.march(scene, procedure)
+    >>> len(marched.records["friction_work"])
+    16
+    >>> print(f"{marched.saturation.friction:.2f}, settled: {marched.saturation.reached}")
+    0.20, settled: False
     """
     marching = begin(scene, procedure or Procedure())
     if restart is not None and restart.exists():

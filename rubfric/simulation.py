@@ -89,8 +89,8 @@ def simulate(scene: Scene, *, accuracy: float | None = None) -> xr.Dataset:
     >>> import rubfric
     >>> campaign = rubfric.load()
     >>> result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
-    >>> float(result.friction_coefficient)  # doctest: +SKIP
-    0.206
+    >>> print(f"{float(result.friction_coefficient):.1f}")
+    0.2
     """
     started = time.perf_counter()
     if accuracy is not None:

@@ -128,6 +128,8 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
     lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     notes = table.loc[table["note"] != "", ["way", "note"]].value_counts(sort=False)
     about = [f"{way}, {count} of {len(table)} points: {note}" for (way, note), count in notes.items()]
+    if warned := int((table["warnings"] > 0).sum()):
+        about.append(f"{warned} of {len(table)} points rest on scenes that carry a warning: column warnings of --csv")
     return "\n".join(
         [
             campaign.words(),

@@ -190,7 +190,7 @@ def _read(options: argparse.Namespace) -> int:
     return 0
 
 
-def write_road(found: Analysis, name: str, output: Path, how: str) -> list[str]:
+def write_road(found: Analysis, name: str, output: Path, how: str, home: str = "") -> list[str]:
     """Write a measured road as a config of sines, with its page, and return what is to be said of it.
 
     Parameters
@@ -202,6 +202,8 @@ def write_road(found: Analysis, name: str, output: Path, how: str) -> list[str]:
         The config; the page has the suffix ``.html`` instead.
     how : str
         How the road was found, for the config's first line.
+    home : str
+        Link of the page to that of all results; none where it is empty.
     """
     from rubfric.pages.render import sentence, write_page
     from rubfric.pages.road import lost, results, road_page
@@ -212,7 +214,7 @@ def write_road(found: Analysis, name: str, output: Path, how: str) -> list[str]:
     text = _yaml(name, how, [*rows, *words], found.sines)
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
-    write_page(road_page(found, name, text), output.with_suffix(".html"))
+    write_page(road_page(found, name, text, home), output.with_suffix(".html"))
     return [*rows, *words]
 
 

@@ -191,7 +191,7 @@ def _fit(options: argparse.Namespace) -> int:
     return 0
 
 
-def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: str) -> list[str]:
+def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: str, home: str = "") -> list[str]:
     """Write a fitted rubber as a config, and its page beside it; return what was found, a line each.
 
     Parameters
@@ -205,6 +205,8 @@ def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: s
         The config; the page has the suffix ``.html`` instead.
     how : str
         How the rubber was found, for the config's first line.
+    home : str
+        Link of the page to that of all results; none where it is empty.
     """
     from rubfric.pages.render import sentence, write_page
     from rubfric.pages.rubber import results, rubber_page
@@ -217,7 +219,7 @@ def write_fit(found: Fit, material: Material, bands: Bands, output: Path, how: s
     text = _yaml(material, how, [*rows, *words], found.shift())
     with whole(output) as part:
         part.write_text(text, encoding="utf-8")
-    write_page(rubber_page(found, bands, material.name, text), output.with_suffix(".html"))
+    write_page(rubber_page(found, bands, material.name, text, home), output.with_suffix(".html"))
     return [*rows, *words]
 
 

@@ -133,6 +133,15 @@ class Campaign:
     others : tuple of Campaign
         Of every other pair where the config has several rubbers or roads, the grid alone; this is the first rubber on
         the first road.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> campaign = rubfric.load()
+    >>> campaign.material.name, len(campaign.road), campaign.aspect
+    ('zhou2019', 4, 0.75)
+    >>> campaign.scene(scale="all", velocity=100, pressure=0.5, kinematics="small").name
+    'all_v100_p0.5_aspect0.75_stress'
     """
 
     results: str
@@ -504,6 +513,13 @@ def load(*configs: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
         For a file that is no YAML, a config that is wrong, or numbers far from any rubber, road or load.
     FileNotFoundError
         For a missing file.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> campaign = rubfric.load({"plane": "strain", "grid": {"velocities": [1, 10], "pressures": [0.2]}})
+    >>> campaign.plane, campaign.velocities, len(campaign.road)
+    ('strain', (1.0, 10.0), 4)
     """
     campaign = Campaign.from_config(overlaid(over_default(*configs), Config.model_fields))
     campaign.unlikely()

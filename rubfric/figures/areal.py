@@ -11,14 +11,22 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from scipy.special import erfinv
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import style
+from rubfric.figures.scaling import plain, scale_speeds, tick_decades
 
 _HEIGHTS = (2.1, 2.2, 2.2)
 # Bins of pressure in a factor of ten.
 _BINS = 8
+# What lines in the middle are.
+_THEORIES: dict[str, dict[str, Any]] = {
+    "persson": {"linestyle": "-", "label": "Persson 2001"},
+    "persson reduced": {"linestyle": ":", "label": "Persson 2006"},
+    "plane": {"linestyle": "--", "label": "Profiles, plane model"},
+}
 _ROAD, _PRESSURE = "Greys_r", "plasma"
 _LINES = (
     (
@@ -26,9 +34,9 @@ _LINES = (
         "persson_friction",
         "persson_friction_reduced",
         "friction_plane",
-        "friction coefficient (-)",
+        "Friction coefficient",
     ),
-    ("contact_fraction", "persson_contact_fraction", "", "contact_plane", "contact area over nominal (-)"),
+    ("contact_fraction", "persson_contact_fraction", "", "contact_plane", "Contact area over nominal"),
 )
 
 
@@ -74,31 +82,39 @@ def draw(
             if table is not None and names[3] in table:
                 rows = table[table["pressure_MPa"] == float(results[0].attrs["pressure"])]
                 axes.plot(rows["velocity_mm_per_s"], rows[names[3]], "--", color=look["color"], gid="plane")
-        axes.set_xscale("log")
+        scale_speeds(axes, np.array([float(one.attrs["velocity"]) for results in curves for one in results]))
         axes.set_ylim(bottom=0.0)
-        axes.set_xlabel("sliding speed (mm/s)")
+        axes.set_xlabel("Sliding speed (mm/s)")
         axes.set_ylabel(names[-1])
-    axes.legend(title="pressure", loc="best")
+    axes.legend(handles=[*axes.get_legend_handles_labels()[0], *_line_handles(lower)], loc="best")
     cut_off, pressures = lowest.subplots(1, 2)
     for look, result in zip(style.lines(len(maps)), maps, strict=True):
         _draw_wavelengths(cut_off, result, look["color"])
         _draw_pressures(pressures, result, look["color"])
     cut_off.set_xscale("log")
+    tick_decades(cut_off.xaxis, *cut_off.get_xlim())
     cut_off.invert_xaxis()
-    cut_off.set_xlabel("shortest wavelength counted (mm)")
+    cut_off.set_xlabel("Shortest wavelength counted (mm)")
     cut_off.set_ylim(bottom=0.0)
-    cut_off.set_ylabel("friction over that of all waves (-)")
+    cut_off.set_ylabel("Friction over that of all waves")
     pressures.set_xscale("log")
+    tick_decades(pressures.xaxis, *pressures.get_xlim())
     pressures.set_ylim(bottom=0.0)
-    pressures.set_xlabel("contact pressure (MPa)")
-    pressures.set_ylabel("share of contact area\nper unit of its logarithm")
+    pressures.set_xlabel("Contact pressure (MPa)")
+    pressures.set_ylabel("Share of contact area\nper unit of its logarithm")
     cut_off.legend(loc="best")
     return figure
 
 
+def _line_handles(figure: Any) -> list[Line2D]:
+    """Return the legend's entries for the lines that are there."""
+    drawn = {str(line.get_gid()) for axes in figure.axes for line in axes.get_lines()}
+    return [Line2D([], [], color="0.3", **look) for gid, look in _THEORIES.items() if gid in drawn]
+
+
 def _draw_wavelengths(axes: Axes, result: xr.Dataset, colour: str) -> None:
     """Draw friction of all wavelengths down to each, over that of all by simulation."""
-    label = f"{float(result.attrs['velocity']):g} mm/s, {float(result.attrs['pressure']):g} MPa"
+    label = f"{plain(float(result.attrs['velocity']))} mm/s, {plain(float(result.attrs['pressure']))} MPa"
     for name, line, known in (("friction_by_wavelength", "-", label), ("persson_friction_by_wavelength", "--", None)):
         share = np.cumsum(result[name].values) / float(result.friction_coefficient or np.nan)
         axes.plot(result.wavelength, share, line, color=colour, label=known)
@@ -128,7 +144,8 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
     largest = max(
         float(np.quantile(one.contact_pressure.values[one.contact_pressure.values > 0.0], 0.98)) for one in maps
     )
-    norm = LogNorm(min(float(one.attrs["pressure"]) for one in maps), largest)
+    interval = min(float(one.attrs["pressure"]) for one in maps), largest
+    norm = LogNorm(*interval)
     for axes, result in zip(panels, maps, strict=True):
         spacing = [float(result[name][1] - result[name][0]) for name in ("x", "y")]
         extent = (0.0, spacing[0] * result.sizes["x"], 0.0, spacing[1] * result.sizes["y"])
@@ -137,12 +154,13 @@ def _draw_maps(figure: Any, maps: Sequence[xr.Dataset]) -> None:
         image = axes.imshow(pressure, origin="lower", extent=extent, cmap=_PRESSURE, norm=norm)
         velocity, load = float(result.attrs["velocity"]), float(result.attrs["pressure"])
         share = style.percent(float(result.contact_fraction))
-        axes.set_title(f"{velocity:g} mm/s, {load:g} MPa\n{share} in contact")
+        axes.set_title(f"{plain(velocity)} mm/s, {plain(load)} MPa\n{share} in contact")
         axes.locator_params(nbins=3)
-        axes.set_xlabel("x (mm)")
+        axes.set_xlabel("$x$ (mm)")
         axes.label_outer()
-    panels[0].set_ylabel("y (mm)")
-    figure.colorbar(image, ax=list(panels), label="contact pressure (MPa)", extend="both", shrink=0.7)
+    panels[0].set_ylabel("$y$ (mm)")
+    bar = figure.colorbar(image, ax=list(panels), label="Contact pressure (MPa)", extend="both", shrink=0.7)
+    tick_decades(bar.ax.yaxis, *interval)
 
 
 def _draw_curve(axes: Axes, results: Sequence[xr.Dataset], names: tuple[str, ...], look: dict[str, Any]) -> None:
@@ -154,7 +172,7 @@ def _draw_curve(axes: Axes, results: Sequence[xr.Dataset], names: tuple[str, ...
 
     errors = values("friction_error") if main == "friction_coefficient" else None
     points = {name: look[name] for name in ("color", "marker", "markerfacecolor")}
-    label = f"{float(results[0].attrs['pressure']):g} MPa"
+    label = f"{plain(float(results[0].attrs['pressure']))} MPa"
     axes.errorbar(speeds, values(main), errors, linestyle="none", capsize=1.5, label=label, **points)
     axes.plot(speeds, values(theory), color=look["color"], gid="persson")
     if reduced:

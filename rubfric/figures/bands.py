@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from rubfric.figures.panels import write_note
 from rubfric.figures.scaling import NEGLIGIBLE
 from rubfric.figures.style import percent
 
@@ -21,6 +23,8 @@ _OPACITY = 0.28
 _INNER, _OUTER = 0.55, 0.2
 # The width of the bar of a point without neighbours, points.
 _BAR = 3.0
+# Share of the height of a panel below which a band is hidden by its line and marks.
+_THIN = 0.03
 
 
 def draw_band(
@@ -59,13 +63,16 @@ def bands(panel: Axes) -> list[Any]:
     return [area for area in panel.collections if area.get_gid() == _BAND]
 
 
-def band_handle(values: Array, errors: Array, colour: Any = "0.3", rubber: Array | None = None) -> Patch:
-    """Return the legend's entry for bands with the largest of the relative errors.
-
-    Bands may be thinner than the lines inside them, so the number is needed.
+def explain_bands(
+    figure: Figure, panel: Axes, values: Array, errors: Array, colour: Any = "0.3", rubber: Array | None = None
+) -> list[Patch]:
+    """Return the legend's entry for bands, with the largest of the relative errors; a note instead if none is seen.
 
     Parameters
     ----------
+    figure : matplotlib.figure.Figure
+    panel : matplotlib.axes.Axes
+        One of those that show the bands, all of which have one ordinate; its limits are final.
     values, errors : numpy.ndarray, of one shape
         All friction coefficients that a figure shows, and their absolute errors. A coefficient of zero has no relative
         error and is left out.
@@ -75,15 +82,32 @@ def band_handle(values: Array, errors: Array, colour: Any = "0.3", rubber: Array
     """
     shown = np.abs(values) > NEGLIGIBLE  # False for NaN
     known = shown & np.isfinite(errors)
-    words = "estimated error"
+    facts = []
     if known.any():
-        words += f",\nat most {percent(float(np.max(np.abs(errors[known] / values[known]))))}"
+        facts.append(f"at most {percent(float(np.max(np.abs(errors[known] / values[known]))))}")
         if rubber is not None:
-            words += f",\nthe rubber's data alone\nat most {percent(float(np.nanmax(rubber[known] / values[known])))}"
+            most = percent(float(np.nanmax(rubber[known] / values[known])))
+            facts.append(f"the rubber's data alone\nat most {most}")
     unknown = int(np.count_nonzero(shown & ~known))
     if unknown:
-        words += f",\nunknown at {unknown} of {np.count_nonzero(shown)} points"
-    return Patch(facecolor=colour, alpha=_OPACITY, linewidth=0.0, label=words)
+        facts.append(f"unknown at {unknown} of {np.count_nonzero(shown)} points")
+    if _seen(panel, values, errors):
+        label = ",\n".join(["Estimated error", *facts])
+        return [Patch(facecolor=colour, alpha=_OPACITY, linewidth=0.0, label=label)]
+    if facts:
+        write_note(figure, [f"Estimated error {', '.join(facts)}: too small for bands to be seen.".replace("\n", " ")])
+    return []
+
+
+def _seen(panel: Axes, values: Array, errors: Array) -> bool:
+    """Return whether any band is thicker than the line inside it."""
+    across = panel.transScale + panel.transLimits
+    # A logarithmic axis puts what is not positive far below its lower end.
+    low, high = (
+        across.transform(np.stack((np.ones(values.size), edge.ravel()), axis=1))[:, 1].clip(0.0, 1.0)
+        for edge in (values - errors, values + errors)
+    )
+    return bool(np.any(high - low > _THIN))
 
 
 def draw_parts(panel: Axes, places: Array, values: Array, parts: Sequence[Array], zorder: float = 1.5) -> None:
@@ -109,25 +133,32 @@ def draw_parts(panel: Axes, places: Array, values: Array, parts: Sequence[Array]
         clear = 1.0 - opacity
 
 
-def part_handles(values: Array, parts: Mapping[str, Array]) -> list[Patch]:
+def explain_parts(figure: Figure, panel: Axes, values: Array, parts: Mapping[str, Array]) -> list[Patch]:
     """Return the legend's entries for the bands of ``draw_parts``, each with the largest of its part alone.
 
     Parameters
     ----------
+    figure : matplotlib.figure.Figure
+        Gets a note instead on parts that are too small to be seen.
+    panel : matplotlib.axes.Axes
+        As for ``explain_bands``.
     values : numpy.ndarray, shape (points,)
         All friction coefficients that a figure shows.
     parts : mapping of str to numpy.ndarray of that shape
         What each part comes from, in words; one part alone is called the estimated error.
     """
     if len(parts) == 1:
-        return [band_handle(values, next(iter(parts.values())), "black")]
+        return explain_bands(figure, panel, values, next(iter(parts.values())), "black")
     shown = np.abs(values) > NEGLIGIBLE
     handles: list[Patch] = []
     for (words, error), opacity in zip(parts.items(), _opacities(len(parts)), strict=True):
         known = shown & np.isfinite(error)
-        most = f",\nat most {percent(float(np.max(np.abs(error[known] / values[known]))))}" if known.any() else ""
-        label = f"{'+' if handles else 'error:'} {words}{most}"
-        handles.append(Patch(facecolor="black", alpha=opacity, linewidth=0.0, label=label))
+        most = f"at most {percent(float(np.max(np.abs(error[known] / values[known]))))}" if known.any() else "unknown"
+        if _seen(panel, values, error):
+            label = f"{'+' if handles else 'Error:'} {words},\n{most}"
+            handles.append(Patch(facecolor="black", alpha=opacity, linewidth=0.0, label=label))
+        else:
+            write_note(figure, [f"Error from {words} {most}: too small for its band to be seen."])
     return handles
 
 

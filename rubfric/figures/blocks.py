@@ -107,9 +107,9 @@ def colour_bar(figure: Figure, norm: LogNorm, left: float, bottom: float, top: f
     place = (left / width, bottom / height, _WIDE / width, high / height)
     bar = figure.colorbar(ScalarMappable(norm, _MAP), cax=figure.add_axes(place), extend="min")
     if high > _LABEL:
-        bar.set_label("strain-energy density (MPa)")
+        bar.set_label("Strain-energy density (MPa)")
     else:
-        bar.set_label("strain-energy\ndensity (MPa)", fontsize=_SMALL, labelpad=1.0)
+        bar.set_label("Strain-energy\ndensity (MPa)", fontsize=_SMALL, labelpad=1.0)
     lowest, highest = bar.ax.get_ylim()
     tick_decades(bar.ax.yaxis, lowest, highest)
     if high < _LABEL:

@@ -23,11 +23,11 @@ Array = NDArray[np.float64]
 
 # The sets in words; one that is not here goes by its own name.
 _WORDS = {
-    "ladder": "ladders",
-    "inside": "inside the paper's grid",
-    "outside": "outside the paper's grid",
-    "whole": "whole roads",
-    "finite": "whole roads in finite strain",
+    "ladder": "Ladders",
+    "inside": "Inside the paper's grid",
+    "outside": "Outside the paper's grid",
+    "whole": "Whole roads",
+    "finite": "Whole roads in finite strain",
 }
 _MARKERS = {"small": "o", "finite": "s", "auto": "D"}
 _OTHER_MARKER = "X"
@@ -83,7 +83,7 @@ def draw(table: pd.DataFrame) -> Figure:
         rows = known[known["set"] == name]
         _draw_points(scatter, rows, colour)
         _draw_shares(shares, rows, colour, dash)
-    panels.entitle(axes, ["each run", "all runs of a set"])
+    panels.entitle(axes, ["Each run", "All runs of a set"])
     handles = _handles(known, sets, colours, dashes)
     figure.legend(handles=handles, loc="outside upper center", ncols=2)
     panels.write_note(figure, note)
@@ -116,7 +116,7 @@ def _scale_errors(panel: Axes, known: pd.DataFrame) -> None:
     ends = np.array([low, high])
     panel.plot(ends, ends, gid="equal", zorder=1.0, **_EQUAL)
     panel.plot(ends, 10.0 * ends, gid="tenfold", zorder=1.0, **_TENFOLD)
-    panel.set(xlabel="true error of friction (%)", ylabel="estimated error (%)")
+    panel.set(xlabel="True error of friction (%)", ylabel="Estimated error (%)")
 
 
 def _draw_points(panel: Axes, rows: pd.DataFrame, colour: Any) -> None:
@@ -139,7 +139,7 @@ def _scale_ratios(panel: Axes, known: pd.DataFrame) -> None:
     tick_decades(panel.xaxis, *panel.get_xlim())
     panel.axvline(1.0, gid="equal", zorder=1.0, **_EQUAL)
     panel.axvline(10.0, gid="tenfold", zorder=1.0, **_TENFOLD)
-    panel.set(xlabel="estimated over true error (-)", ylabel="runs with at most this ratio (%)")
+    panel.set(xlabel="Estimated over true error", ylabel="Runs with at most this ratio (%)")
 
 
 def _draw_shares(panel: Axes, rows: pd.DataFrame, colour: Any, dash: Any) -> None:
@@ -170,11 +170,11 @@ def _handles(known: pd.DataFrame, sets: Sequence[str], colours: Sequence[Any], d
         for name, colour, dash in zip(sets, colours, dashes, strict=True)
     ]
     second: list[Artist] = [
-        Line2D([], [], color="0.3", marker=_marker(kinematics), label=f"{kinematics} strain", **_POINT)
+        Line2D([], [], color="0.3", marker=_marker(kinematics), label=panels.sentence(f"{kinematics} strain"), **_POINT)
         for kinematics in dict.fromkeys(known["kinematics"])
     ]
-    second.append(Line2D([], [], label="estimate = true error", **_EQUAL))
-    second.append(Line2D([], [], label="estimate = 10 x true error", **_TENFOLD))
+    second.append(Line2D([], [], label="Estimate = true error", **_EQUAL))
+    second.append(Line2D([], [], label="Estimate = 10 \N{MULTIPLICATION SIGN} true error", **_TENFOLD))
     blank: list[Artist] = [Line2D([], [], linestyle="none", label=" ")]
     longest = max(len(first), len(second))
     return [*first, *blank * (longest - len(first)), *second, *blank * (longest - len(second))]

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from rubfric.dma.bootstrap import Bands
 from rubfric.dma.laws import LN10, law_of
 from rubfric.dma.result import Fit
+from rubfric.figures.scaling import plain
 from rubfric.figures.style import COLUMN, applied, colours
-from rubfric.figures.temperature import signed
 
 # Height of a figure, inches, and opacity of bands.
 _HEIGHT, _OPACITY = 2.75, 0.25
@@ -59,7 +59,7 @@ def _series(fit: Fit) -> Iterator[tuple[np.ndarray, Any, str]]:
     named = set(np.linspace(0, count - 1, min(count, _MOST)).round().astype(int).tolist())
     for place, colour in enumerate(colours(count)):
         own = fit.data.isotherm == place
-        label = f"{signed(round(float(fit.data.temperatures[place]), 1))} °C" if count > 1 and place in named else ""
+        label = f"{plain(round(float(fit.data.temperatures[place]), 1))} °C" if count > 1 and place in named else ""
         yield own, colour, label
 
 
@@ -80,7 +80,7 @@ def _frequencies(fit: Fit) -> Any:
 
 
 def _abscissa(fit: Fit) -> str:
-    return "frequency (Hz)" if fit.data.is_master else f"reduced frequency $a_T f$ at {fit.reference:g} °C (Hz)"
+    return "Frequency (Hz)" if fit.data.is_master else f"Reduced frequency $a_T f$ at {plain(fit.reference, 4)} °C (Hz)"
 
 
 def _legend(panel: Axes, **where: Any) -> None:
@@ -89,13 +89,13 @@ def _legend(panel: Axes, **where: Any) -> None:
 
 def _isotherms(fit: Fit) -> Figure:
     kind = fit.data.kind
-    figure, panel = _axes("frequency (Hz)", f"${kind}'$, ${kind}''$ (MPa)")
+    figure, panel = _axes("Frequency (Hz)", f"${kind}'$, ${kind}''$ (MPa)")
     hertz = fit.data.frequency / (2.0 * np.pi)
     for own, colour, label in _series(fit):
         panel.plot(hertz[own], fit.data.storage[own], "o-", color=colour, ms=_SIZE, lw=0.6, label=label or None)
         panel.plot(hertz[own], fit.data.loss[own], "^--", color=colour, ms=_SIZE, lw=0.6, markerfacecolor="white")
     panel.set(xscale="log", yscale="log")
-    panel.set_title(f"full ${kind}'$, open ${kind}''$", loc="left")
+    panel.set_title(f"Full ${kind}'$, open ${kind}''$", loc="left")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside right upper", handlelength=1.2)
     return figure
 
@@ -118,7 +118,7 @@ def _master(fit: Fit, bands: Bands) -> Figure:
 
 
 def _shift_factors(fit: Fit, bands: Bands) -> Figure:
-    figure, panel = _axes("temperature (°C)", r"$\log_{10} a_T$")
+    figure, panel = _axes("Temperature (°C)", r"$\log_{10} a_T$")
     temperatures = fit.data.temperatures
     fine = np.linspace(temperatures[0], temperatures[-1], 200)
     for name, deviation in fit.deviations.items():
@@ -135,7 +135,7 @@ def _shift_factors(fit: Fit, bands: Bands) -> Figure:
                 ms=3.0,
                 color="#117733",
                 elinewidth=0.7,
-                label="free shifts",
+                label="Free shifts",
             )
             failed = deviation.fails
             if failed.any():
@@ -145,7 +145,7 @@ def _shift_factors(fit: Fit, bands: Bands) -> Figure:
     if fit.law == "free":
         low, high = bands.of("log_shifts")
         panel.fill_between(temperatures, low, high, color="#117733", alpha=_OPACITY, linewidth=0.0)
-        panel.plot(temperatures, fit.log_shifts, "o-", ms=3.0, lw=0.7, color="#117733", label="free shifts, taken")
+        panel.plot(temperatures, fit.log_shifts, "o-", ms=3.0, lw=0.7, color="#117733", label="Free shifts, taken")
     if np.ptp(fit.log_scales) > 0.0:
         panel.plot(temperatures, fit.log_scales, "s", ms=2.5, color="#332288", label=r"$\log_{10} b_T$")
     panel.axhline(0.0, color="0.8", lw=0.5, zorder=0)
@@ -154,7 +154,7 @@ def _shift_factors(fit: Fit, bands: Bands) -> Figure:
 
 
 def _loss_factor(fit: Fit, bands: Bands) -> Figure:
-    figure, panel = _axes(_abscissa(fit), r"loss factor $\tan\delta$ (-)")
+    figure, panel = _axes(_abscissa(fit), r"Loss factor $\tan\delta$")
     reduced = _reduced(fit)
     for own, colour, _ in _series(fit):
         panel.plot(reduced[own], fit.data.loss[own] / fit.data.storage[own], "o", color=colour, ms=_SIZE)
@@ -172,7 +172,7 @@ def _loss_factor(fit: Fit, bands: Bands) -> Figure:
 def _van_gurp_palmen(fit: Fit) -> Figure:
     kind = fit.data.kind
     over = "" if fit.options.vertical == "none" else " / b_T"
-    figure, panel = _axes(f"$|{kind}^*|{over}$ (MPa)", r"phase angle $\delta$ (deg)")
+    figure, panel = _axes(f"$|{kind}^*|{over}$ (MPa)", r"Phase angle $\delta$ (deg)")
     measured = _at_reference(fit)
     for own, colour, label in _series(fit):
         modulus = np.hypot(measured[0][own], measured[1][own])
@@ -187,7 +187,7 @@ def _van_gurp_palmen(fit: Fit) -> Figure:
 
 def _spectrum(fit: Fit, bands: Bands) -> Figure:
     kind = fit.data.kind
-    figure, panel = _axes("relaxation time (s)", f"${kind}_i$ (MPa)")
+    figure, panel = _axes("Relaxation time (s)", f"${kind}_i$ (MPa)")
     low, high = fit.window
     panel.axvspan(1.0 / high, 1.0 / low, color="0.93", linewidth=0.0, zorder=0)
     if bands.samples:
@@ -198,14 +198,14 @@ def _spectrum(fit: Fit, bands: Bands) -> Figure:
     panel.axhline(fit.static, color="#cc6677", lw=0.9, linestyle="--", label=f"${kind}_\\infty$")
     panel.set(xscale="log", yscale="log")
     panel.set_ylim(bottom=0.3 * min(fit.moduli.min(), fit.static))
-    panel.set_title("grey: measured window", loc="left")
+    panel.set_title("Grey: measured window", loc="left")
     _legend(panel, loc="upper right")
     return figure
 
 
 def _residuals(fit: Fit) -> Figure:
     kind = fit.data.kind
-    figure, panel = _axes(_abscissa(fit), "residual (%)")
+    figure, panel = _axes(_abscissa(fit), "Residual (%)")
     reduced = _reduced(fit)
     for values, name, colour, marker in zip(fit.residuals, ("'", "''"), ("#332288", "#cc6677"), "o^", strict=True):
         panel.plot(

@@ -10,16 +10,16 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, draw_band, upper
-from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.selection import described, friction, friction_error, written
+from rubfric.figures.bands import draw_band, explain_bands, upper
+from rubfric.figures.scaling import plain, scale_friction, scale_speeds
+from rubfric.results.selection import friction, friction_error
 
 
 @style.applied()
 def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
     """Draw the friction coefficient against speed, a line per ratio and a panel per scale and pressure.
 
-    Bands around the lines are the estimated errors; the legend gives the largest.
+    Bands around the lines are the estimated errors; the legend, or a note where none is seen, gives the largest.
 
     Parameters
     ----------
@@ -54,11 +54,12 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
         for aspect, look in zip(aspects, style.lines(len(aspects)), strict=True):
             line, error = lines[place, aspect], errors[place, aspect]
             draw_band(panel, line["velocity"].values, line.values, error.values, look["color"])
-            panel.plot(line["velocity"].values, line.values, label=written(aspect), **look)
+            panel.plot(line["velocity"].values, line.values, label=plain(aspect), **look)
     scale_speeds(axes[0], campaign["velocity"].values)
     shown, bounds = (np.concatenate([one.values for one in found.values()]) for found in (lines, errors))
     scale_friction(axes[0], upper(shown, bounds))
-    panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
-    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    panels.legend_beside(figure, [*axes[0].get_lines(), band_handle(shown, bounds)], "height-to-width\nratio (-)")
+    panels.entitle(axes, [panels.place_words(scale=scale, pressure=pressure) for scale, pressure in places])
+    panels.label(axes, "Sliding speed (mm/s)", "Friction coefficient")
+    handles = [*axes[0].get_lines(), *explain_bands(figure, axes[0], shown, bounds)]
+    panels.legend_beside(figure, handles, "Height-to-width\nratio")
     return figure

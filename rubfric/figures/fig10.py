@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.bands import draw_parts, part_handles, upper
+from rubfric.figures.bands import draw_parts, explain_parts, upper
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.totals import Totals, totals
 from rubfric.results.selection import written
@@ -25,7 +25,7 @@ _HEIGHT, _PART = 2.5, 0.14
 _ESTIMATES = ("sum", "corrected", "cascade", "persson")
 _DIRECT: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
 _REFUSED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 5.0, "clip_on": False}
-_NOT = "whole road not solved"
+_NOT = "Whole road not solved"
 
 
 @style.applied()
@@ -59,15 +59,15 @@ def draw(table: pd.DataFrame, pressures: Sequence[float]) -> Figure:
     figure, axes = panels.arrange(len(found), _HEIGHT + _PART * (max(len(one.parts) for one in found) - 1))
     for panel, one in zip(axes, found, strict=True):
         for way, look in zip(_ESTIMATES, _looks(), strict=True):
-            panel.plot(one.speeds, one.friction[way], label=one.words(way), **look)
+            panel.plot(one.speeds, one.friction[way], label=panels.sentence(one.words(way)), **look)
         _draw_direct(panel, one)
     scale_speeds(axes[0], np.concatenate([one.speeds for one in found]))
     direct = np.concatenate([one.friction["direct"] for one in found])
     error = np.concatenate([one.errors["direct"] for one in found])
     scale_friction(axes[0], np.concatenate([shown, upper(direct, error)]))
     panels.entitle(axes, [f"{written(pressure)} MPa" for pressure in chosen])
-    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    panels.legend_above(figure, _handles(axes, found, direct), None, 3 if len(axes) > 1 else 2)
+    panels.label(axes, "Sliding speed (mm/s)", "Friction coefficient")
+    panels.legend_above(figure, _handles(figure, axes, found, direct), None, 3 if len(axes) > 1 else 2)
     return figure
 
 
@@ -84,22 +84,23 @@ def _draw_direct(panel: Axes, found: Totals) -> None:
     direct = found.friction["direct"]
     if np.isfinite(direct).any():
         draw_parts(panel, found.speeds, direct, list(found.parts.values()))
-        panel.plot(found.speeds, direct, label=found.words("direct"), **_DIRECT)
+        panel.plot(found.speeds, direct, label=panels.sentence(found.words("direct")), **_DIRECT)
     if found.missing.any():
         place = found.speeds[found.missing]
         across = panel.get_xaxis_transform()
         panel.plot(place, np.full(place.size, 0.03), transform=across, label=_NOT, gid="missing", **_REFUSED)
 
 
-def _handles(axes: Sequence[Axes], found: Sequence[Totals], direct: Array) -> list[Artist]:
+def _handles(figure: Figure, axes: Sequence[Axes], found: Sequence[Totals], direct: Array) -> list[Artist]:
     """Return the legend's entries: each line once, direct first, and its bands."""
     lines = {str(line.get_label()): line for panel in axes for line in panel.get_lines()}
-    handles: list[Artist] = [lines.pop(words) for words in (found[0].words("direct"), _NOT) if words in lines]
+    whole = panels.sentence(found[0].words("direct"))
+    handles: list[Artist] = [lines.pop(words) for words in (whole, _NOT) if words in lines]
     if np.isfinite(direct).any():
-        handles[0].set_label(f"{found[0].words('direct')}:\n{found[0].road}")
+        handles[0].set_label(f"{whole}:\n{found[0].road}")
         names = dict.fromkeys(words for one in found for words in one.parts)
         parts = {words: np.concatenate([_part(one, words) for one in found]) for words in names}
-        handles[1:1] = part_handles(direct, parts)
+        handles[1:1] = explain_parts(figure, axes[0], direct, parts)
     return [*handles, *lines.values()]
 
 

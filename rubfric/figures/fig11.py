@@ -43,7 +43,7 @@ _LINES = 12
 # In inches: margins, the gaps beside and below a panel and between its strip and its spot, and the widest panel.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.5, 0.72, 0.24, 0.1, 0.105
 _BESIDE, _BELOW, _BETWEEN, _WIDEST, _LONGEST = 0.1, 0.16, 0.1, 2.4, 3.0
-_SMALL, _SMALLEST = 6.0, 5.5
+_SMALL = 6.0
 # Letters of small type to an inch, and the most lines of the reason of a refusal.
 _LETTERS, _LINES_OF_REASON = 24, 4
 
@@ -224,7 +224,7 @@ def _scale_bar(panel: Axes) -> None:
     end, level = right - 0.03 * wide, bottom + 0.15 * wide
     panel.plot([end - length, end], [level, level], color="black", linewidth=1.0, solid_capstyle="butt", zorder=3.1)
     words = f"{written(float(length))} mm"
-    panel.text(end - length - 0.025 * wide, level, words, fontsize=_SMALLEST, ha="right", va="center", bbox=PLATE)
+    panel.text(end - length - 0.025 * wide, level, words, fontsize=_SMALL, ha="right", va="center", bbox=PLATE)
 
 
 def _mark(figure: Figure, upper: Axes, lower: Axes, spot: _View) -> None:
@@ -244,14 +244,15 @@ def _inscribe(panel: Axes, result: xr.Dataset, mark: str, sheet: _Sheet) -> None
     corner: dict[str, Any] = {"x": 0.025, "y": 0.05, "va": "bottom", "fontsize": _SMALL, "bbox": PLATE} | look
     if REFUSAL in result.attrs:
         reason = str(result.attrs[REFUSAL]).removeprefix(f"{result.attrs['scene']}: ")
-        panel.text(s=mark + ("not solved" if reason.startswith(NOT_NEEDED) else "refused"), **corner)
+        panel.text(s=mark + ("Not solved" if reason.startswith(NOT_NEEDED) else "Refused"), **corner)
         words = "\n".join(textwrap.wrap(reason, int(_LETTERS * sheet.panel), max_lines=_LINES_OF_REASON))
-        panel.text(0.5, 0.96, words, fontsize=_SMALLEST, ha="center", va="top", **look)
+        panel.text(0.5, 0.96, words, fontsize=_SMALL, ha="center", va="top", **look)
         return
     friction, error = (float(result[f"friction_coefficient{part}"]) for part in ("", "_error"))
     contact = 100.0 * float(result["contact_fraction"])
     share = f"{contact:.0f}" if contact >= 1.95 else f"{contact:.1f}"
-    words = f"{mark}\N{GREEK SMALL LETTER MU} = {_measured(friction, error)}, contact {share} %"
+    measured = _measured(friction, error).replace("-", "\N{MINUS SIGN}")
+    words = f"{mark}\N{GREEK SMALL LETTER MU} = {measured}, contact {share} %"
     panel.text(s=words, **corner)
 
 

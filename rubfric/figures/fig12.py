@@ -11,9 +11,8 @@ from matplotlib.ticker import LogFormatterMathtext, LogLocator
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, draw_band, upper
-from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.figures.temperature import signed
+from rubfric.figures.bands import draw_band, explain_bands, upper
+from rubfric.figures.scaling import plain, scale_friction, scale_speeds
 from rubfric.figures.totals import totals
 from rubfric.results.selection import written
 from rubfric.results.temperature import rows_at
@@ -67,13 +66,13 @@ def draw(
     axes[1].xaxis.set_major_locator(LogLocator(10.0, numticks=8))
     axes[1].xaxis.set_major_formatter(LogFormatterMathtext())
     scale_friction(axes[0], upper(total, error))
-    panels.entitle(axes, ["at each temperature", f"shifted to {signed(reference)} °C"])
-    axes[0].set_xlabel("sliding speed $v$ (mm/s)")
-    axes[1].set_xlabel("reduced speed $a_T v$ (mm/s)")
-    axes[0].set_ylabel("friction coefficient (-)")
-    handles = panels.line_handles([signed(one) for one in found], looks)
-    title = f"temperature (°C),\nat {written(pressure)} MPa"
-    panels.legend_beside(figure, [*handles, band_handle(total, error)], title)
+    panels.entitle(axes, ["At each temperature", f"Shifted to {plain(reference)} °C"])
+    axes[0].set_xlabel("Sliding speed $v$ (mm/s)")
+    axes[1].set_xlabel("Reduced speed $a_T v$ (mm/s)")
+    axes[0].set_ylabel("Friction coefficient")
+    handles = panels.line_handles([plain(one) for one in found], looks)
+    title = f"Temperature (°C),\nat {written(pressure)} MPa"
+    panels.legend_beside(figure, [*handles, *explain_bands(figure, axes[0], total, error)], title)
     moduli = [factors[one][1] for one in found]
     if any(modulus != 1.0 for modulus in moduli):
         note = f"Moduli are multiplied by $b_T$, {min(moduli):.3g} to {max(moduli):.3g}: friction is one curve at equal"

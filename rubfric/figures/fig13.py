@@ -85,13 +85,13 @@ def draw(comparison: pd.DataFrame, ranking: pd.DataFrame, pressures: Sequence[fl
         axes[0].xaxis.set_major_formatter(LogFormatterMathtext())
     total, half = (shown[name].to_numpy(dtype=np.float64) for name in _VALUES)
     scale_friction(axes[0], np.minimum(upper(total, half), _HIGHEST * np.nanmax(total)))
-    what = f"{on} " if len(places) <= _MOST_NUMBERED else ""
+    what = f"{on.capitalize()} " if len(places) <= _MOST_NUMBERED else ""
     panels.entitle(axes, [f"{what}{_short(place)}, {written(pressure)} MPa" for pressure, place in cells])
     _label(axes, strips, pairs)
     handles = panels.line_handles([_short(name) for name in names], [*looks.values()])
     marks = [
         Patch(facecolor="0.3", alpha=0.28, linewidth=0.0, label="95 % interval"),
-        Line2D([], [], label="cannot be told apart", **_APART),
+        Line2D([], [], label="Cannot be told apart", **_APART),
     ]
     panels.legend_above(figure, [*handles, *marks], None, 6 if figure.get_figwidth() > style.COLUMN else 3)
     others = " Roads are compared in the table of the ranking." if of == "rubber" and len(places) > 1 else ""
@@ -163,13 +163,13 @@ def _label(axes: Sequence[Axes], strips: Sequence[Axes], pairs: Sequence[tuple[s
         left = bool(place and place.is_first_col())
         panel.tick_params(labelbottom=False, labelleft=left)
         strip.set_yticklabels([f"{_short(one)} : {_short(other)}" for one, other in pairs])
-        strip.tick_params(axis="y", labelsize=5.5, labelleft=left)
+        strip.tick_params(axis="y", labelsize=6.0, labelleft=left)
         lowest = last or bool(place and place.is_last_row())
         strip.tick_params(labelbottom=lowest)
         if left:
-            panel.set_ylabel("friction coefficient (-)")
+            panel.set_ylabel("Friction coefficient")
         if lowest:
-            strip.set_xlabel("sliding speed (mm/s)")
+            strip.set_xlabel("Sliding speed (mm/s)")
 
 
 def _short(name: str) -> str:

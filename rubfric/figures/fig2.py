@@ -15,19 +15,23 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from rubfric.figures import panels, style
-from rubfric.figures.scaling import scale_decades
-from rubfric.figures.scenes import by_pressure_and_speed
-from rubfric.results.selection import described, written
+from rubfric.figures.scaling import plain, scale_decades
+from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 
 Array = NDArray[np.float64]
 
+_FRICTION = "friction_coefficient"
 _VARIABLES = (
     "mesh_node_y",
     "strain_energy_density",
     "depth",
     "strain_energy_density_profile",
     "pressed_energy_density",
+    _FRICTION,
 )
+# Speeds that are drawn at most, and which they are of more.
+_MOST = 3
+_CHOSEN = "The slowest, the fastest and, between them, the speed of most friction"
 _STEADY: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (7, 3))}
 # The ordinate begins at this fraction of the steady value: single nodes are all but unstrained.
 _LOWEST = 0.1
@@ -35,7 +39,7 @@ _LOWEST = 0.1
 
 @style.applied()
 def draw(results: Sequence[xr.Dataset]) -> Figure:
-    """Draw the strain-energy density against the height in the block, a line per speed and a panel per pressure.
+    """Draw the strain-energy density against the height in the block, a panel per pressure and three speeds at most.
 
     Parameters
     ----------
@@ -57,10 +61,11 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
         Where the results do not fill a grid of pressures and speeds, or lack something.
     """
     grid = by_pressure_and_speed(results, _VARIABLES)
-    looks = style.lines(len(grid.speeds))
+    speeds = _shown(grid)
+    looks = style.lines(len(speeds))
     figure, axes = panels.arrange(len(grid.pressures), height=2.7, share_ordinate=False)
     for panel, pressure in zip(axes, grid.pressures, strict=True):
-        scenes = [grid.results[pressure, speed] for speed in grid.speeds]
+        scenes = [grid.results[pressure, speed] for speed in speeds]
         for result, look in zip(scenes, looks, strict=True):
             _draw_scene(panel, result, look)
         levels = sorted({float(result["pressed_energy_density"]) for result in scenes})
@@ -68,13 +73,25 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
             panel.axhline(level, gid="steady", zorder=2.5, **_STEADY)
         _scale_density(panel, scenes, levels)
     _scale_height(axes[0], results)
-    panels.entitle(axes, [described(pressure=pressure) for pressure in grid.pressures])
-    panels.label(axes, "height in the undeformed block (mm)", "strain-energy density (MPa)")
-    handles = panels.line_handles([f"mean at {written(speed)} mm/s" for speed in grid.speeds], looks)
-    handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="range of the nodes")]
-    handles += [Line2D([], [], label="steady value on a flat road", **_STEADY)]
+    panels.entitle(axes, [panels.place_words(pressure=pressure) for pressure in grid.pressures])
+    panels.label(axes, "Height in the undeformed block (mm)", "Strain-energy density (MPa)")
+    handles = panels.line_handles([f"Mean at {plain(speed)} mm/s" for speed in speeds], looks)
+    handles += [Patch(facecolor="0.85", edgecolor="0.4", linewidth=0.5, label="Range of the nodes")]
+    handles += [Line2D([], [], label="Steady value on a flat road", **_STEADY)]
     panels.legend_above(figure, handles, None, 2 if len(axes) == 1 else 3)
+    hidden = [plain(speed) for speed in grid.speeds if speed not in speeds]
+    if hidden:
+        panels.write_note(figure, [f"{_CHOSEN} are drawn, but not {', '.join(hidden)} mm/s."])
     return figure
+
+
+def _shown(grid: SceneGrid) -> tuple[float, ...]:
+    """Return the speeds that are drawn: all of three, else the slowest, the fastest, and the best grip between them."""
+    if len(grid.speeds) <= _MOST:
+        return grid.speeds
+    slowest, *between, fastest = grid.speeds
+    grip = {speed: sum(float(grid.results[one, speed][_FRICTION]) for one in grid.pressures) for speed in between}
+    return slowest, max(between, key=lambda speed: grip[speed]), fastest
 
 
 def _draw_scene(panel: Axes, result: xr.Dataset, look: dict[str, Any]) -> None:
@@ -111,4 +128,4 @@ def _scale_density(panel: Axes, scenes: Sequence[xr.Dataset], steady: Sequence[f
 def _scale_height(panel: Axes, results: Sequence[xr.Dataset]) -> None:
     panel.set_xlim(0.0, max(float(result["depth"].values.max()) for result in results))
     panel.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))

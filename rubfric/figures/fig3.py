@@ -10,12 +10,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, draw_band, upper
-from rubfric.figures.scaling import NEGLIGIBLE, scale_decades, scale_friction, tick_at
-from rubfric.results.selection import described, friction, friction_error, written
+from rubfric.figures.bands import draw_band, explain_bands, upper
+from rubfric.figures.scaling import NEGLIGIBLE, plain, scale_decades, scale_friction, tick_at
+from rubfric.results.selection import friction, friction_error
 
 Array = NDArray[np.float64]
 
@@ -26,10 +27,11 @@ _MARK: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": (0, (7
 
 @style.applied()
 def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float], aspects: Sequence[float]) -> Figure:
-    """Draw the friction coefficient against the height-to-width ratio, a line per speed; the ratio 0.75 is marked.
+    """Draw the friction coefficient against the height-to-width ratio, a line per speed; dashes mark the ratio 0.75.
 
     The ordinate is logarithmic, so that the lines of all speeds show how much they still change; it is linear where a
-    friction coefficient is zero. Bands around the lines are the estimated errors; the legend gives the largest.
+    friction coefficient is zero. Bands around the lines are the estimated errors; the legend, or a note
+    where none is seen, gives the largest.
 
     Parameters
     ----------
@@ -69,11 +71,12 @@ def draw(campaign: xr.Dataset, scales: Sequence[int], pressures: Sequence[float]
         panel.axvline(TYPICAL_RATIO, zorder=0.5, gid="typical", **_MARK)
     _scale_ratios(axes[0], ratios)
     _scale_ordinate(axes[0], np.concatenate(tables), np.concatenate(errors))
-    panels.entitle(axes, [described(scale=scale, pressure=pressure) for scale, pressure in places])
-    panels.label(axes, "height-to-width ratio (-)", "friction coefficient (-)")
-    handles = panels.line_handles([written(float(speed)) for speed in speeds], looks)
-    handles.append(band_handle(np.concatenate(tables), np.concatenate(errors)))
-    panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
+    panels.entitle(axes, [panels.place_words(scale=scale, pressure=pressure) for scale, pressure in places])
+    panels.label(axes, "Height-to-width ratio", "Friction coefficient")
+    handles = panels.line_handles([plain(float(speed)) for speed in speeds], looks)
+    handles += [Line2D([], [], label=f"{TYPICAL_RATIO}: stable above,\naccording to the paper", **_MARK)]
+    handles += explain_bands(figure, axes[0], np.concatenate(tables), np.concatenate(errors))
+    panels.legend_beside(figure, handles, "Sliding speed\n(mm/s)")
     return figure
 
 

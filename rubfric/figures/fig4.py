@@ -18,6 +18,7 @@ from rubfric.figures.blocks import PLATE, colour_bar, colour_scale, draw_block, 
 from rubfric.figures.deformation import DeformedBlock, deform, is_finite, wavelength
 from rubfric.figures.note import note_below
 from rubfric.figures.panels import letter
+from rubfric.figures.scaling import plain
 from rubfric.figures.scenes import SceneGrid, by_pressure_and_speed
 from rubfric.results.selection import written
 
@@ -28,8 +29,8 @@ _WIDTH, _BELOW, _SKY, _LOW, _HIGH = 1.25, 0.11, 0.04, 0.5, 1.0
 # In inches: the margins without the note, a line of the note, the gaps, the widest panel, and the narrowest for words.
 _LEFT, _RIGHT, _TOP, _BOTTOM, _NOTE_LINE = 0.78, 0.76, 0.22, 0.42, 0.105
 _GAP, _WIDEST, _NARROW = 0.09, 2.4, 1.2
-# Sizes of type, in points.
-_SMALL, _SMALLEST = 6.0, 5.0
+# Size of type, in points.
+_SMALL = 6.0
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,7 @@ def _arrange(grid: SceneGrid, window: _Window, sheet: _Sheet) -> tuple[Figure, l
         panel.set(xlim=(window.left, window.right), ylim=(window.bottom, window.top))
         for axis in (panel.xaxis, panel.yaxis):
             axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
         panel.label_outer()
     return figure, list(panels.flat)
 
@@ -170,12 +171,11 @@ def _inscribe(panel: Axes, mark: str, contact: float, window: _Window, sheet: _S
     """Write the panel's letter and the share in contact into the solid below the road."""
     word = "" if sheet.panel_width < _NARROW else "contact "
     solid = _BELOW / _WIDTH
-    size = min(_SMALL, max(_SMALLEST, 50.0 * solid * sheet.panel_width))
     middle = window.bottom + 0.45 * solid * (window.right - window.left)
     text = f"{mark}{word}{100.0 * contact:.0f} %"
     centre = 0.5 * (window.left + window.right)
     # Below the frame, which the plate would break in small panels.
-    panel.text(centre, middle, text, fontsize=size, ha="center", va="center", bbox=PLATE, zorder=2.2)
+    panel.text(centre, middle, text, fontsize=_SMALL, ha="center", va="center", bbox=PLATE, zorder=2.2)
 
 
 def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet) -> None:
@@ -188,7 +188,7 @@ def _label(figure: Figure, axes: Sequence[Axes], grid: SceneGrid, sheet: _Sheet)
         text = f"{written(pressure)}\nMPa"
         figure.text(0.03 / sheet.width, 0.5 * (place.y0 + place.y1), text, va="center")
     middle = 0.5 * (_LEFT + sheet.width - _RIGHT) / sheet.width
-    figure.text(middle, (sheet.bottom - 0.32) / sheet.height, "distance along the road (mm)", ha="center")
+    figure.text(middle, (sheet.bottom - 0.32) / sheet.height, "Distance along the road (mm)", ha="center")
     middle = 0.5 * (sheet.bottom + sheet.height - _TOP) / sheet.height
-    figure.text(0.36 / sheet.width, middle, "height (mm)", rotation="vertical", va="center")
+    figure.text(0.36 / sheet.width, middle, "Height (mm)", rotation="vertical", va="center")
     figure.text(_LEFT / sheet.width, 0.04 / sheet.height, sheet.note, fontsize=_SMALL, va="bottom")

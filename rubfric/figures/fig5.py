@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.scaling import scale_friction, tick_decades
+from rubfric.figures.scaling import plain, scale_friction, tick_decades
 from rubfric.figures.scenes import check_results
 from rubfric.results.selection import described, written
 
@@ -31,13 +31,12 @@ _BLOCK = ("scale", "pressure", "aspect")
 _ATTRIBUTES = ("velocity", *_BLOCK, "kinematics_used", "wavelength_mm", "steps_per_wavelength")
 # The phase in which the block begins to move; those before press it.
 _START = 2
-# Wavelengths at which panel (b) begins; before, the block has hardly moved.
-_FIRST = 0.05
+# Wavelengths at which panel (b) begins, before the first mean.
+_FIRST = 0.5
 # Markers are no nearer to each other than this share of the panel's width.
 _APART = 0.035
-# Lines of fast blocks oscillate more and lie below those of slow ones; in panel (b) they are paler than the means.
+# Lines of fast blocks oscillate more and lie below those of slow ones.
 _STEPS: dict[str, Any] = {"linewidth": 0.7, "zorder": 2.0}
-_PALE = 0.5
 _MEAN: dict[str, Any] = {"linestyle": "none", "markersize": 3.4, "zorder": 3.0}
 _STEADY: dict[str, Any] = {"linestyle": (0, (6, 3)), "linewidth": 0.6}
 # Characters on a line of the note, which ends before the legend.
@@ -79,7 +78,7 @@ class _Slide:
 
 @style.applied()
 def draw(results: Sequence[xr.Dataset]) -> Figure:
-    """Draw the friction coefficient against steps of time and against wavelengths slid, a line per speed.
+    """Draw the friction coefficient against steps of time, and its means against wavelengths slid, a colour per speed.
 
     Parameters
     ----------
@@ -91,10 +90,10 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Steps and wavelengths count from where the block begins to move. Dashes show the steady solver's value. Markers
-        show means over a wavelength, all in panel (b) but those too near to another one, and the last in panel (a); a
-        ring around the last one marks a saturated mean, about which friction may still oscillate. The legend and the
-        note name those that have not saturated.
+        Steps and wavelengths count from where the block begins to move. Friction at every step is in panel (a) alone.
+        Dashes show the steady solver's value. Markers show means over a wavelength, all in panel (b) but those too near
+        to another one, and the last in panel (a); a ring around the last one marks a saturated mean, about which
+        friction may still oscillate. The legend and the note name those that have not saturated.
 
     Raises
     ------
@@ -109,17 +108,18 @@ def draw(results: Sequence[xr.Dataset]) -> Figure:
     lines = sum(1 + str(handle.get_label()).count("\n") for handle in handles)
     height = max(_HEIGHT, _LEGEND_LINE * (lines + 2)) + _NOTE_LINE * len(note)
     figure = Figure(figsize=(style.DOUBLE_COLUMN, height), layout="constrained")
-    by_step, by_distance = axes = list(figure.subplots(1, 2, sharey=True))
+    by_step, by_distance = axes = list(figure.subplots(1, 2))
     _scale(by_step, by_distance, slides)
     for slide, look in zip(slides[::-1], looks[::-1], strict=True):
-        _draw_line(by_step, slide.steps, slide, look)
-        _draw_line(by_distance, slide.slid, slide, look, alpha=_PALE)
+        _draw_steps(by_step, slide, look)
+        for panel in axes:
+            panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
         _draw_means(by_step, slide.mean_steps[-1:], slide, look)
         _draw_means(by_distance, slide.mean_slid, slide, look)
-    panels.entitle(axes, ["step by step", "over the distance slid"])
-    by_step.set(xlabel="time steps since the block began to move (-)", ylabel="friction coefficient (-)")
-    by_distance.set_xlabel("distance slid (wavelengths)")
-    panels.legend_beside(figure, handles, "sliding speed\n(mm/s)")
+    panels.entitle(axes, ["Step by step", "Means over a wavelength"])
+    by_step.set(xlabel="Time steps since the block began to move", ylabel="Friction coefficient")
+    by_distance.set(xlabel="Distance slid (wavelengths)", ylabel="Mean friction coefficient")
+    panels.legend_beside(figure, handles, "Sliding speed\n(mm/s)")
     panels.write_note(figure, note)
     return figure
 
@@ -162,21 +162,24 @@ def _scale(by_step: Axes, by_distance: Axes, slides: Sequence[_Slide]) -> None:
     most = max(float(slide.steps[-1]) for slide in slides)
     by_step.set_xlim(0.0, 1.03 * most)
     by_step.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10], integer=True))
-    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: written(value)))
+    by_step.xaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
     furthest = max(1.0, *(float(slide.slid[-1]) for slide in slides))
     by_distance.set_xscale("log")
     by_distance.set_xlim(_FIRST, 1.15 * furthest)
     tick_decades(by_distance.xaxis, _FIRST, furthest)
-    shown = [np.array([slide.steady, *slide.friction, *slide.means]) for slide in slides]
-    scale_friction(by_step, np.concatenate(shown))
-    if by_step.get_ylim()[0] < 0.0:
-        for panel in (by_step, by_distance):
+    steps, means = (
+        np.concatenate([np.array([slide.steady, *getattr(slide, name)]) for slide in slides])
+        for name in ("friction", "means")
+    )
+    scale_friction(by_step, steps)
+    scale_friction(by_distance, means)
+    for panel in (by_step, by_distance):
+        if panel.get_ylim()[0] < 0.0:
             panel.axhline(0.0, color="0.6", linewidth=0.5, zorder=0.5, gid="zero")
 
 
-def _draw_line(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any], alpha: float = 1.0) -> None:
-    panel.plot(places, slide.friction, color=look["color"], alpha=alpha, label=written(slide.speed), **_STEPS)
-    panel.axhline(slide.steady, color=look["color"], zorder=2.5, gid="steady", **_STEADY)
+def _draw_steps(panel: Axes, slide: _Slide, look: dict[str, Any]) -> None:
+    panel.plot(slide.steps, slide.friction, color=look["color"], label=plain(slide.speed), **_STEPS)
 
 
 def _draw_means(panel: Axes, places: Array, slide: _Slide, look: dict[str, Any]) -> None:
@@ -203,13 +206,13 @@ def _apart(panel: Axes, places: Array) -> list[int]:
 def _handles(slides: Sequence[_Slide], looks: Sequence[dict[str, Any]]) -> list[Line2D]:
     handles = []
     for slide, look in zip(slides, looks, strict=True):
-        words = written(slide.speed) + ("" if slide.saturated else "\nnot saturated")
+        words = plain(slide.speed) + ("" if slide.saturated else "\nnot saturated")
         handles.append(Line2D([], [], label=words, **look | {"linestyle": "-", "linewidth": 0.8, "markersize": 3.4}))
-    handles.append(Line2D([], [], color="black", label="steady sliding,\nsolved directly", **_STEADY))
+    handles.append(Line2D([], [], color="black", label="Steady sliding,\nsolved directly", **_STEADY))
     if any(slide.means.size for slide in slides):
-        handles.append(Line2D([], [], color="black", marker="o", label="mean over\na wavelength", **_MEAN))
+        handles.append(Line2D([], [], color="black", marker="o", label="Mean over\na wavelength", **_MEAN))
     if any(slide.saturated for slide in slides):
-        handles.append(Line2D([], [], color="black", label="mean saturated", **style.RING))
+        handles.append(Line2D([], [], color="black", label="Mean saturated", **style.RING))
     return handles
 
 

@@ -2,33 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
-from rubfric.figures import panels, style
-from rubfric.figures.bands import band_handle, draw_band, upper
+from rubfric.figures import marks, panels, style
+from rubfric.figures.bands import draw_band, explain_bands, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.refined import curve_points, draw_curve, found_handles
-from rubfric.figures.scaling import scale_friction, scale_speeds
-from rubfric.results.selection import BEYOND, WORTH_A_WORD, friction, friction_error, pick, rubber_error, written
+from rubfric.figures.scaling import plain, scale_friction, scale_speeds
+from rubfric.results.selection import BEYOND, WORTH_A_WORD, friction, friction_error, pick, rubber_error
 
-Array = NDArray[np.float64]
-# Points at which friction is an extrapolation of the rubber's data.
-_CROSS = "beyond"
+# What points are marked for: a variable of the campaign, and the number above which.
+_MARKS = ((BEYOND, WORTH_A_WORD, marks.BEYOND), ("warnings", 0.0, marks.WARNED))
 
 
 @style.applied()
 def draw(campaign: xr.Dataset, aspect: float, micro: bool = True, curves: pd.DataFrame | None = None) -> Figure:
-    """Draw the friction coefficient against speed, a line per pressure and a panel per scale, the finest first.
+    """Draw the friction coefficient against speed, a line per pressure and a panel per scale, the coarsest first.
 
     Parameters
     ----------
@@ -46,8 +40,9 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True, curves: pd.Dat
     -------
     matplotlib.figure.Figure
         Rings mark the largest of the sampled points of a line, where it lies between others. Bands around the lines
-        are the estimated errors, those from the data of a measured rubber included; the legend gives the largest.
-        Crosses mark points of which more than 1 % comes from frequencies at which the rubber was not measured.
+        are the estimated errors, those from the data of a measured rubber included; the legend,
+        or a note where none is seen, gives the largest. Crosses mark points of which more than 1 % comes from
+        frequencies at which the rubber was not measured, exclamation marks those that carry a warning.
 
     Raises
     ------
@@ -62,7 +57,7 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True, curves: pd.Dat
     if data is not None:
         data = data.sel(pressure=grid["pressure"]).transpose(*grid.dims)
         errors = errors + data
-    scales = [int(scale) for scale in grid["scale"].values[::-1]]
+    scales = [int(scale) for scale in grid["scale"].values]
     pressures = [float(pressure) for pressure in grid["pressure"].values]
     speeds = grid["velocity"].values
     fields = [friction(campaign, aspect=aspect, scale=scale) for scale in scales]
@@ -72,46 +67,37 @@ def draw(campaign: xr.Dataset, aspect: float, micro: bool = True, curves: pd.Dat
     for (panel, scale, field), (pressure, look) in product(drawn, zip(pressures, looks, strict=True)):
         line, error = field.sel(pressure=pressure), errors.sel(scale=scale, pressure=pressure)
         if line.notnull().any():
-            points = curve_points(curves, scale, pressure)
-            if points is None:
+            known = curve_points(curves, scale, pressure)
+            if known is None:
                 draw_band(panel, speeds, line.values, error.values, look["color"])
                 panel.plot(speeds, line.values, **look)
                 mark_peak(panel, speeds, line.values, look["color"])
             else:
-                tallest.append(draw_curve(panel, points, look))
-            if BEYOND in campaign:
-                share = pick(campaign, BEYOND, aspect=aspect, scale=scale, pressure=pressure)
-                _cross(panel, speeds, line.where(share > WORTH_A_WORD).values)
+                tallest.append(draw_curve(panel, known, look))
     scale_speeds(axes[0], speeds)
     scale_friction(axes[0], np.concatenate(tallest))
-    panels.entitle(axes, _titles(scales, micro))
-    panels.label(axes, "sliding speed (mm/s)", "friction coefficient (-)")
-    handles = panels.line_handles([written(pressure) for pressure in pressures], looks)
-    marks = [
+    for (panel, scale, field), (name, least, mark) in product(zip(axes, scales, fields, strict=True), _MARKS):
+        if name in campaign:
+            found = pick(campaign, name, aspect=aspect, scale=scale).transpose("velocity", "pressure")
+            values = field.transpose("velocity", "pressure").values
+            mark.put(panel, speeds.repeat(values.shape[1]), values.ravel(), (found.values > least).ravel())
+    panels.entitle(axes, _titles(campaign, scales, micro))
+    panels.label(axes, "Sliding speed (mm/s)", "Friction coefficient")
+    handles = panels.line_handles([plain(pressure) for pressure in pressures], looks)
+    points = [
         *peak_handles(*axes),
         *found_handles(*axes),
-        *_crosses(axes)[:1],
-        band_handle(grid.values, errors.values, rubber=data if data is None else data.values),
+        *(handle for _, _, mark in _MARKS for handle in mark.handles(axes)),
     ]
-    panels.legend_beside(figure, [*handles, *marks], "nominal pressure\n(MPa)")
+    of_rubber = data if data is None else data.values
+    bands = explain_bands(figure, axes[0], grid.values, errors.values, rubber=of_rubber)
+    panels.legend_beside(figure, [*handles, *points, *bands], "Nominal pressure\n(MPa)")
     return figure
 
 
-def _cross(panel: Axes, speeds: Array, values: Array) -> None:
-    """Mark points at which friction is an extrapolation of the rubber's data; NaN for the others."""
-    known = np.isfinite(values)
-    if known.any():
-        look: dict[str, Any] = {"linestyle": "none", "marker": "x", "color": "black", "markersize": 4.5, "zorder": 4.0}
-        panel.plot(speeds[known], values[known], gid=_CROSS, label="beyond the measured\nfrequencies", **look)
-
-
-def _crosses(axes: Sequence[Axes]) -> list[Line2D]:
-    return [line for panel in axes for line in panel.get_lines() if line.get_gid() == _CROSS]
-
-
-def _titles(scales: list[int], micro: bool) -> list[str]:
-    """Return the names of scales from fine to coarse."""
-    titles = [f"scale {scale}" for scale in scales]
+def _titles(campaign: xr.Dataset, scales: list[int], micro: bool) -> list[str]:
+    """Return the names of scales from coarse to fine, with their wavelengths."""
+    titles = [panels.scale_words(campaign, scale) for scale in scales]
     if micro and len(scales) > 1:
-        titles[0] = f"micro-scale ({titles[0]})"
+        titles[-1] += " (micro-scale)"
     return titles

@@ -15,8 +15,8 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
-from rubfric.figures import panels, style
-from rubfric.figures.bands import part_handles, runs, upper
+from rubfric.figures import marks, panels, style
+from rubfric.figures.bands import explain_parts, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.refined import found_handles, mark_found
 from rubfric.figures.scaling import scale_friction, scale_speeds
@@ -51,10 +51,10 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     Returns
     -------
     matplotlib.figure.Figure
-        The finest scale lies at the bottom, the paper's sum is the dashed line on top. The total is the full line, with
-        the band of its whole error, of which the legend gives the largest. Where it was obtained in another way, since
-        the whole road was refused or not needed, its points are open, with bars. A ring marks the largest of the rest,
-        if it lies between others.
+        The coarsest scale lies at the bottom, the paper's sum is the dashed line on top. The total is the full line,
+        with the band of its whole error, of which the legend, or a note where none is seen, gives the largest. Where it
+        was obtained in another way, since the whole road was refused or not needed, its points are open, with bars. A
+        ring marks the largest of the rest, if it lies between others, and an exclamation mark what carries a warning.
 
     Raises
     ------
@@ -62,11 +62,7 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
         Where the campaign lacks the ratio or the pressure, or has no speed at which all scales were run; for a table
         that lacks a column or the pressure.
     """
-    shares = (
-        friction(campaign, aspect=aspect, pressure=pressure)
-        .transpose("scale", "velocity")
-        .sortby("scale", ascending=False)
-    )
+    shares = friction(campaign, aspect=aspect, pressure=pressure).transpose("scale", "velocity")
     summed = total_friction(shares).values
     if not bool(np.isfinite(summed).any()):
         place = described(pressure=pressure, aspect=aspect)
@@ -76,8 +72,8 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     found, speeds = totals(table, pressure), shares["velocity"].values
     figure = Figure(figsize=(style.COLUMN, _HEIGHT + _PART * (len(found.parts) - 1)), layout="constrained")
     axes = figure.subplots()
-    patches = _stack(axes, speeds, shares)
-    (edge,) = axes.plot(speeds, summed, label=found.words("sum"), gid="sum", **_SUM)
+    patches = _stack(axes, speeds, shares, campaign)
+    (edge,) = axes.plot(speeds, summed, label=panels.sentence(found.words("sum")), gid="sum", **_SUM)
     line = draw_total(axes, found)
     if refined:
         mark_found(axes, Curve.known(found.speeds, found.total, found.error), "black")
@@ -85,12 +81,13 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
         mark_peak(axes, found.speeds, found.main, "black")
     scale_speeds(axes, np.concatenate([speeds, found.speeds]))
     scale_friction(axes, np.concatenate([summed, upper(found.total, found.error)]))
-    axes.set_xlabel("sliding speed (mm/s)")
-    axes.set_ylabel("friction coefficient (-)")
-    marks = [*peak_handles(axes), *found_handles(axes), *other_handles([found])]
-    lines = [line, *part_handles(found.main, found.parts), *marks, edge]
-    handles = [*_padded(lines, len(patches)), *_padded(patches[::-1], len(lines))]
-    panels.legend_above(figure, handles, described(pressure=pressure, aspect=aspect), 2)
+    marks.WARNED.put(axes, found.speeds, found.total, found.warnings > 0.0)
+    axes.set_xlabel("Sliding speed (mm/s)")
+    axes.set_ylabel("Friction coefficient")
+    points = [*peak_handles(axes), *found_handles(axes), *other_handles([found]), *marks.WARNED.handles([axes])]
+    lines = [line, *explain_parts(figure, axes, found.main, found.parts), *points, edge]
+    handles = [*_padded(lines, len(patches)), *_padded(patches, len(lines))]
+    panels.legend_above(figure, handles, panels.place_words(pressure=pressure, aspect=aspect), 2)
     return figure
 
 
@@ -99,27 +96,17 @@ def _padded(handles: Sequence[Any], count: int) -> list[Any]:
     return [*handles, *(Line2D([], [], linestyle="none", label=" ") for _ in range(count - len(handles)))]
 
 
-def _stack(axes: Axes, speeds: NDArray[np.float64], shares: xr.DataArray) -> list[Patch]:
+def _stack(axes: Axes, speeds: NDArray[np.float64], shares: xr.DataArray, campaign: xr.Dataset) -> list[Patch]:
     """Draw the areas one upon the other, and return their entries in the legend."""
     edges = np.cumsum(np.vstack((np.zeros_like(speeds), shares.values)), axis=0)
     known = np.isfinite(edges[-1])
     patches = []
-    for place, (scale, colour) in enumerate(zip(shares["scale"].values, _tints(shares.sizes["scale"]), strict=True)):
-        look: dict[str, Any] = {
-            "facecolor": colour,
-            "edgecolor": "0.15",
-            "hatch": style.HATCHES[place % len(style.HATCHES)],
-            "linewidth": 0.5,
-        }
+    for place, scale in enumerate(shares["scale"].values.tolist()):
+        look = style.scale_area(scale)
         for run in runs(known):
             x, low, high = speeds[run], edges[place][run], edges[place + 1][run]
             if x.size == 1:
                 x, low, high = x * np.array([1.0 / _ALONE, _ALONE]), low.repeat(2), high.repeat(2)
             axes.fill_between(x, low, high, gid=f"scale {scale}", **look)
-        patches.append(Patch(label=f"scale {scale}", **look))
+        patches.append(Patch(label=panels.scale_words(campaign, scale), **look))
     return patches
-
-
-def _tints(count: int) -> list[tuple[float, ...]]:
-    """Return the shared colours mixed with white, so that hatches and lines show on them."""
-    return [tuple(0.45 * np.asarray(colour[:3]) + 0.55) for colour in style.colours(count)]

@@ -50,7 +50,7 @@ def _frame(axes: Axes) -> None:
     for x in (5.0, 8.7):
         _box(axes, x, 0.0, 0.3, 5.6, "0.93", zorder=0.5)
     _box(axes, 5.0, 5.3, 4.0, 0.4, _STEEL)
-    _write(axes, 9.9, -0.5, "bed with the rail")
+    _write(axes, 9.9, -0.5, "Bed with the rail")
 
 
 def _sled(axes: Axes) -> None:
@@ -95,21 +95,27 @@ def _column(axes: Axes) -> None:
 
 def _symbols(axes: Axes) -> None:
     """Write the names of the parts, and the symbols beside their arrows."""
-    _point(axes, "hand wheel", (8.1, 6.19), (9.6, 6.19))
-    _point(axes, "flange sensor of\n$F_N$ and $F_T$ (traction: rubber)", (7.7, 2.45), (9.6, 3.7), _SENSOR)
-    _point(axes, "rubber, nominal area $A$", (7.55, 1.65), (9.6, 2.35))
-    _point(axes, "road in the sled, mass $m$", (9.0, 1.15), (9.6, 1.62))
-    _point(axes, "six ball bearings, drag $F_b$", (4.0, 0.04), (3.6, -0.5), align="right")
-    _point(axes, "sensor of displacement $x$", (0.45, 1.22), (0.15, 2.2), _SENSOR)
-    _point(axes, "or sensor in the rope of\n$F_T$ (traction: rope)", (12.85, 1.14), (14.0, 2.7), _SENSOR)
-    _point(axes, "sheave", (14.25, 0.7), (15.1, 1.2))
-    _write(axes, 15.1, -0.95, "weight")
+    _point(axes, "Hand wheel", (8.1, 6.19), (9.6, 6.19))
+    _point(
+        axes,
+        "Flange sensor of the normal force $F_N$\nand the friction force $F_T$ at the rubber",
+        (7.7, 2.45),
+        (9.6, 3.7),
+        _SENSOR,
+    )
+    _point(axes, "Rubber, nominal area $A$", (7.55, 1.65), (9.6, 2.35))
+    _point(axes, "Road in the sled, mass $m$", (9.0, 1.15), (9.6, 1.62))
+    _point(axes, "Six ball bearings, drag $F_b$", (4.0, 0.04), (3.6, -0.5), align="right")
+    _point(axes, "Sensor of displacement $x$", (0.45, 1.22), (0.15, 2.2), _SENSOR)
+    _point(axes, "Or sensor of the\nforce $F_T$ in the rope", (12.85, 1.14), (14.0, 2.7), _SENSOR)
+    _point(axes, "Sheave", (14.25, 0.7), (15.1, 1.2))
+    _write(axes, 15.1, -0.95, "Weight")
     _arrow(axes, (6.1, 4.7), (6.1, 3.3), "$F_N$", (5.68, 4.0))
     _arrow(axes, (3.7, 1.75), (4.8, 1.75), "$v$", (4.3, 2.1))
     formulae = (
-        "at the rubber:   $\\mu = F_T \\,/\\, F_N$\n"
-        "in the rope:   $\\mu = (F_T - m \\, a - F_b) \\,/\\, F_N$\n"
-        "pressure:   $p = F_N \\,/\\, A$"
+        "At the rubber:   $\\mu = F_T \\,/\\, F_N$\n"
+        "In the rope:   $\\mu = (F_T - m \\, a - F_b) \\,/\\, F_N$\n"
+        "Pressure:   $p = F_N \\,/\\, A$"
     )
     axes.text(15.8, 5.2, formulae, ha="center", va="center", linespacing=1.7, fontsize=6.5)
 

@@ -16,10 +16,9 @@ from rubfric.arrays import Flags
 from rubfric.figures import panels, style
 from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.columns import check_columns
-from rubfric.figures.scaling import scale_friction, scale_speeds, tick_decades
+from rubfric.figures.scaling import plain, scale_friction, scale_speeds, tick_decades
 from rubfric.results.friction_map import FrictionMap
 from rubfric.results.scales import RUBBER_PART
-from rubfric.results.selection import written
 
 Array = NDArray[np.float64]
 
@@ -28,7 +27,7 @@ _HEIGHT = 2.9
 _NEAR = 1.1
 # Points of a curve.
 _POINTS = 241
-_WORDS = {"measured": "measured", "simulated": "virtual rig (simulated)"}
+_WORDS = {"measured": "Measured", "simulated": "Virtual rig (simulated)"}
 _SPEED, _PRESSURE, _FRICTION = "speed_mm_per_s", "pressure_MPa", "friction_coefficient"
 _INTERVALS = {_SPEED: "speed_ci95_mm_per_s", _PRESSURE: "pressure_ci95_MPa", _FRICTION: "friction_coefficient_ci95"}
 
@@ -148,10 +147,10 @@ def _finish(axes: Sequence[Axes], friction: FrictionMap, points: pd.DataFrame, t
     axes[1].set_xlim(low / margin, high * margin)
     tick_decades(axes[1].xaxis, low, high)
     scale_friction(axes[0], tallest)
-    panels.entitle(axes, ["over speed", "over pressure"])
-    axes[0].set_xlabel("sliding speed (mm/s)")
-    axes[1].set_xlabel("nominal pressure (MPa)")
-    axes[0].set_ylabel("friction coefficient (-)")
+    panels.entitle(axes, ["Over speed", "Over pressure"])
+    axes[0].set_xlabel("Sliding speed (mm/s)")
+    axes[1].set_xlabel("Nominal pressure (MPa)")
+    axes[0].set_ylabel("Friction coefficient")
 
 
 def _legend(panel: Axes, values: Sequence[float], unit: str) -> None:
@@ -165,7 +164,7 @@ def _legend(panel: Axes, values: Sequence[float], unit: str) -> None:
             markersize=3.0,
             markerfacecolor="white",
             markeredgewidth=0.6,
-            label=f"{written(value)} {unit}",
+            label=f"{plain(value)} {unit}",
         )
         for value, look in zip(values, style.lines(len(values)), strict=True)
     ]
@@ -182,7 +181,7 @@ def _covers(totals: pd.DataFrame) -> str:
 def _kinds(points: pd.DataFrame, covers: str) -> list[Line2D]:
     """Return what lines and points are."""
     grey: dict[str, Any] = {"color": "0.25"}
-    handles: list[Any] = [Line2D([], [], label=f"simulated, with the band of its estimated error{covers}", **grey)]
+    handles: list[Any] = [Line2D([], [], label=f"Simulated, with the band of its estimated error{covers}", **grey)]
     for source in sorted(set(points["source"])):
         face = "0.25" if source == "measured" else "white"
         words = f"{_WORDS[source]}, 95\N{NO-BREAK SPACE}% confidence"
@@ -198,4 +197,4 @@ def _note(figure: Figure, points: pd.DataFrame, shown: Flags) -> None:
     note = f"Points within {percent:.0f} % of the pressure, or speed, of a line"
     hidden = int(np.count_nonzero(~shown))
     note += f"; {hidden} of {len(points)} lie at others and are not drawn." if hidden else "."
-    figure.supxlabel(note if len(points) else "No point could be measured.", fontsize=6.0, color="0.3")
+    panels.write_note(figure, [note if len(points) else "No point could be measured."])

@@ -38,6 +38,10 @@ def note_below(grid: SceneGrid, whole: bool, shares: bool) -> str:
         )
     if shares:
         note.append("Percentages: share of the nominal area in contact.")
+    warned = [number for number, place in enumerate(places) if grid.results[place].attrs.get("warnings")]
+    if warned:
+        which = f"Panel{'s' if len(warned) > 1 else ''} {_listed(warned)}" if len(places) > 1 else "The scene"
+        note.append(f"{which} carr{'y' if len(warned) > 1 else 'ies'} a warning.")
     note += temperature_words(next(iter(grid.results.values())).attrs.get("temperature"))
     return " ".join(note)
 

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from string import ascii_lowercase
 from typing import Any
 
+import numpy as np
+import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rubfric.errors import InvalidInput
+from rubfric.figures.scaling import plain
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN
+from rubfric.results.selection import described
 
 _MOST_COLUMNS = 3
 # The height of a line of a legend, in inches, and the size of type of a note, points.
 _LEGEND_LINE, _NOTE_TYPE = 0.13, 6.0
+# Letters of a note to an inch.
+_LETTERS = 21.5
 
 
 def arrange(count: int, height: float, share_ordinate: bool = True) -> tuple[Figure, list[Axes]]:
@@ -81,6 +88,29 @@ def letter(place: int) -> str:
     return f"({before}{ascii_lowercase[place % 26]})"
 
 
+def place_words(**chosen: float) -> str:
+    """Return values on the axes of a campaign as a title: ``Scale 1, pressure 5 MPa``."""
+    return sentence(described(**chosen).replace("e-", "e\N{MINUS SIGN}"))
+
+
+def sentence(words: str) -> str:
+    """Return words with a capital at their beginning, as labels have them."""
+    return words[:1].upper() + words[1:]
+
+
+def scale_words(campaign: xr.Dataset, scale: int) -> str:
+    """Return a scale with its wavelength: ``Scale 1, 0.18 mm``.
+
+    Parameters
+    ----------
+    campaign : xarray.Dataset
+        As gathered by ``rubfric.results.campaign.collect``; ``wavenumber`` is 2 pi over the wavelength, 1/mm.
+    scale : int
+    """
+    wavelength = 2.0 * np.pi / float(campaign["wavenumber"].sel(scale=scale))
+    return f"Scale {scale}, {plain(wavelength, 3)} mm"
+
+
 def legend_beside(figure: Figure, handles: Sequence[Any], title: str) -> None:
     """Put one legend for all panels at the right of them, where it covers no data; above one panel alone.
 
@@ -130,11 +160,19 @@ def line_handles(labels: Sequence[str], looks: Sequence[dict[str, Any]]) -> list
 
 
 def write_note(figure: Figure, lines: Sequence[str]) -> None:
-    """Write a note in small type below all panels.
+    """Write a note in small type below all panels, and below any note that is there.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
     lines : sequence of str
     """
-    figure.supxlabel("\n".join(lines), x=0.01, ha="left", multialignment="left", fontsize=_NOTE_TYPE)
+    letters = int(_LETTERS * (figure.get_figwidth() - 0.1))
+    wrapped = [part for line in lines for part in textwrap.wrap(line, letters)]
+    figure.supxlabel(
+        "\n".join([*figure.get_supxlabel().splitlines(), *wrapped]),
+        x=0.01,
+        ha="left",
+        multialignment="left",
+        fontsize=_NOTE_TYPE,
+    )

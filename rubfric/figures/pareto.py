@@ -195,36 +195,37 @@ def _whiskers(panel: Axes, presets: Ladder) -> list[Array]:
 
 def _entitle(large: Axes, small: Sequence[Axes], ladders: Mapping[str, Ladder]) -> None:
     if small:
-        large.set_title(f"{panels.letter(0)} all knobs", loc="left")
+        large.set_title(f"{panels.letter(0)} All knobs", loc="left")
     for place, (panel, (knob, ladder)) in enumerate(zip(small, ladders.items(), strict=True), start=1):
-        heading = [f"{panels.letter(place)} {_words(knob)}", *textwrap.wrap(", ".join(ladder.rungs), _RUNGS_WIDTH)]
+        rungs = ", ".join(ladder.rungs).replace("e-", "e\N{MINUS SIGN}")
+        heading = [f"{panels.letter(place)} {_words(knob)}", *textwrap.wrap(rungs, _RUNGS_WIDTH)]
         panel.set_title("\n".join(heading), fontsize=_SMALL_TYPE, loc="left", linespacing=1.15)
 
 
 def _words(knob: str) -> str:
-    return _WORDS.get(knob, knob)
+    return panels.sentence(_WORDS.get(knob, knob))
 
 
 def _label(large: Axes, small: Sequence[Axes]) -> None:
-    large.set(xlabel="cost relative to the preset standard (-)", ylabel="relative error of friction (%)")
+    large.set(xlabel="Cost relative to the preset standard", ylabel="Relative error of friction (%)")
     for place, panel in enumerate(small):
         panel.tick_params(
             labelleft=place % _ACROSS == 0, labelbottom=place + _ACROSS >= len(small), labelsize=_SMALL_TYPE
         )
         if place % _ACROSS == 0:
-            panel.set_ylabel("error (%)", fontsize=_SMALL_TYPE)
+            panel.set_ylabel("Error (%)", fontsize=_SMALL_TYPE)
         if place + _ACROSS >= len(small):
-            panel.set_xlabel("cost (-)", fontsize=_SMALL_TYPE)
+            panel.set_xlabel("Cost", fontsize=_SMALL_TYPE)
 
 
 def _handles(knobs: Sequence[str], looks: Sequence[dict[str, Any]], presets: bool) -> list[Artist]:
     handles = panels.line_handles([_words(knob) for knob in knobs], looks)
-    handles.append(Line2D([], [], label="coarsest rung", **_RING | {"color": "0.3"}))
-    handles.append(Line2D([], [], label="one scene", **_POINT | {"color": "0.3", "markersize": 4.0}))
+    handles.append(Line2D([], [], label="Coarsest rung", **_RING | {"color": "0.3"}))
+    handles.append(Line2D([], [], label="One scene", **_POINT | {"color": "0.3", "markersize": 4.0}))
     if presets:
-        handles.append(Line2D([], [], label="preset", **_CHOICE))
-        handles.append(Line2D([], [], label="to the worst scene", **_WHISKER))
-    handles.append(Patch(label="reference's own error", **_BOUND))
+        handles.append(Line2D([], [], label="Preset", **_CHOICE))
+        handles.append(Line2D([], [], label="To the worst scene", **_WHISKER))
+    handles.append(Patch(label="Reference's own error", **_BOUND))
     return handles
 
 

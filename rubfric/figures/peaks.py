@@ -39,4 +39,4 @@ def peak_handles(*panels: Axes) -> list[Line2D]:
     """Return the legend's entry for the rings, or none where the panels have no ring."""
     if not any(rings(panel) for panel in panels):
         return []
-    return [Line2D([], [], color="black", label="sampled peak", **style.RING)]
+    return [Line2D([], [], color="black", label="Sampled peak", **style.RING)]

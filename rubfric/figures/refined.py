@@ -101,4 +101,4 @@ def found_handles(*panels: Axes) -> list[Line2D]:
     if not any(one.get_label() == _FOUND for one in bars):
         return []
     look = {name: value for name, value in _bars("black").items() if name not in ("elinewidth", "capsize")}
-    return [Line2D([], [], linestyle="none", label="peak, with its error", **look)]
+    return [Line2D([], [], linestyle="none", label="Peak, with its error", **look)]

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rubfric.figures.scaling import plain, tick_decades
 from rubfric.figures.style import COLUMN, DOUBLE_COLUMN, applied
 from rubfric.profile.analysis import Analysis
 from rubfric.profile.depth import SEGMENT, low_passed
@@ -70,25 +71,25 @@ def _profile(found: Analysis) -> Figure:
     figure = Figure(figsize=(DOUBLE_COLUMN, 1.55 * _HEIGHT), layout="constrained")
     before, after = figure.subplots(2, sharex=True)
     place = measured.distances
-    before.plot(*_drawn(place, measured.heights), "-", color="0.45", lw=0.6, label="as measured")
+    before.plot(*_drawn(place, measured.heights), "-", color="0.45", lw=0.6, label="As measured")
     if cleaned.spikes.any():
         before.plot(
-            place[cleaned.spikes], measured.heights[cleaned.spikes], "x", color=_REMOVED, ms=3.5, label="spikes"
+            place[cleaned.spikes], measured.heights[cleaned.spikes], "x", color=_REMOVED, ms=3.5, label="Spikes"
         )
     for side, count in zip(
         (slice(0, cleaned.plates[0]), slice(len(place) - cleaned.plates[1], None)), cleaned.plates, strict=True
     ):
         if count:
-            before.axvspan(place[side][0], place[side][-1], color="#ddaa33", alpha=0.3, lw=0.0, label="plate")
+            before.axvspan(place[side][0], place[side][-1], color="#ddaa33", alpha=0.3, lw=0.0, label="Plate")
     kept = profile.distances
-    before.plot(kept, cleaned.form, "--", color=_MODEL, lw=0.9, label="tilt and form")
-    before.set(ylabel="height (mm)")
+    before.plot(kept, cleaned.form, "--", color=_MODEL, lw=0.9, label="Tilt and form")
+    before.set(ylabel="Height (mm)")
     _legend(before)
-    after.plot(*_drawn(kept, cleaned.heights), "-", color=_ROAD, lw=0.6, label="clean")
+    after.plot(*_drawn(kept, cleaned.heights), "-", color=_ROAD, lw=0.6, label="Clean")
     after.plot(
-        *_drawn(kept, np.where(cleaned.bridged, cleaned.heights, np.nan)), "-", color=_REMOVED, lw=1.1, label="bridged"
+        *_drawn(kept, np.where(cleaned.bridged, cleaned.heights, np.nan)), "-", color=_REMOVED, lw=1.1, label="Bridged"
     )
-    after.set(xlabel="distance (mm)", ylabel="height (mm)")
+    after.set(xlabel="Distance (mm)", ylabel="Height (mm)")
     _legend(after)
     return figure
 
@@ -100,24 +101,24 @@ def _legend(panel: Axes, **where: Any) -> None:
 
 
 def _distribution(found: Analysis) -> Figure:
-    figure, panel = _axes(COLUMN, "height (mm)", "density (1/mm)")
+    figure, panel = _axes(COLUMN, "Height (mm)", "Density (1/mm)")
     heights = found.cleaned.heights
     rms, skewness, kurtosis = found.moments
-    panel.hist(heights, bins=60, density=True, color=_ROAD, alpha=0.5, label="heights")
+    panel.hist(heights, bins=60, density=True, color=_ROAD, alpha=0.5, label="Heights")
     fine = np.linspace(heights.min(), heights.max(), 200)
     normal = np.exp(-0.5 * (fine / rms) ** 2) / (rms * math.sqrt(2.0 * math.pi))
-    panel.plot(fine, normal, "k--", lw=0.9, label="normal")
-    panel.set_title(f"rms {rms:.3g} mm, skewness {skewness:.2f}, kurtosis {kurtosis:.2f}", loc="left")
+    panel.plot(fine, normal, "k--", lw=0.9, label="Normal")
+    panel.set_title(f"RMS {rms:.3g} mm, skewness {plain(round(skewness, 2))}, kurtosis {kurtosis:.2f}", loc="left")
     _legend(panel, loc="best")
     return figure
 
 
 def _spectrum(found: Analysis) -> Figure:
-    figure, panel = _axes(COLUMN, "wavenumber $q$ (1/mm)", "$C(q)$ (mm³)")
+    figure, panel = _axes(COLUMN, "Wavenumber $q$ (1/mm)", "Power spectral density $C(q)$ (mm³)")
     bins = found.spectrum.binned(6)
     low, high = bins.interval()
     panel.fill_between(bins.wavenumbers, low, high, color=_ROAD, alpha=0.2, lw=0.0, label="95 %")
-    panel.plot(bins.wavenumbers, bins.density, "-", color=_ROAD, lw=0.9, label="measured")
+    panel.plot(bins.wavenumbers, bins.density, "-", color=_ROAD, lw=0.9, label="Measured")
     panel.set(xscale="log", yscale="log")
     ends = panel.get_xlim()
     floor = 0.3 * bins.density[bins.density > 0.0].min()
@@ -130,9 +131,11 @@ def _spectrum(found: Analysis) -> Figure:
         q = np.geomspace(law.low, law.high, 20)
         label = f"$H$ = {law.exponent:.2f} ± {law.error:.2f}"
         panel.plot(q, law.level * (q / law.reference) ** -(1.0 + 2.0 * law.exponent), "k--", lw=0.9, label=label)
-    panel.axvline(2.0 * math.pi / found.cutoff, color=_REMOVED, lw=0.8, linestyle=":", label="cutoff")
+    panel.axvline(2.0 * math.pi / found.cutoff, color=_REMOVED, lw=0.8, linestyle=":", label="Cutoff")
     upper = panel.secondary_xaxis("top", functions=(_wavelength, _wavelength))
-    upper.set_xlabel("wavelength (mm)")
+    upper.set_xlabel("Wavelength (mm)")
+    for axis in (panel.xaxis, upper.xaxis):
+        tick_decades(axis, *sorted(axis.get_view_interval()))
     _legend(panel, loc="lower left")
     return figure
 
@@ -149,12 +152,19 @@ def _octaves(found: Analysis) -> Figure:
     solid = np.array([found.is_trusted(one) for one in found.octaves])
     for panel, name, colour in ((slope, "slope", _MODEL), (height, "height", _ROAD)):
         values = np.array([getattr(one, name) for one in found.octaves])
-        panel.bar(place[solid], values[solid], 0.8, color=colour, label="trusted")
+        panel.bar(place[solid], values[solid], 0.8, color=colour, label="Trusted")
         panel.bar(
-            place[~solid], values[~solid], 0.8, color="white", edgecolor=colour, hatch="////", lw=0.6, label="not"
+            place[~solid],
+            values[~solid],
+            0.8,
+            color="white",
+            edgecolor=colour,
+            hatch="////",
+            lw=0.6,
+            label="Not trusted",
         )
-    slope.set(ylabel="rms slope (-)")
-    height.set(ylabel="rms height (mm)", xlabel="octave of wavelength, its centre (mm)")
+    slope.set(ylabel="RMS slope")
+    height.set(ylabel="RMS height (mm)", xlabel="Octave of wavelength, its centre (mm)")
     every = math.ceil(len(place) / _LABELS)
     height.set_xticks(place[::every], [f"{one.wavelength:.2g}" for one in found.octaves[::every]])
     _legend(slope)
@@ -162,7 +172,7 @@ def _octaves(found: Analysis) -> Figure:
 
 
 def _depth(found: Analysis) -> Figure:
-    figure, panel = _axes(DOUBLE_COLUMN, "distance (mm)", "height (mm)")
+    figure, panel = _axes(DOUBLE_COLUMN, "Distance (mm)", "Height (mm)")
     profile = found.cleaned.profile
     smooth, place = low_passed(profile.heights, profile.spacing), profile.distances
     points = round(SEGMENT / profile.spacing)
@@ -172,17 +182,17 @@ def _depth(found: Analysis) -> Figure:
         panel.plot(*_drawn(place[part], level), "-", color=_ROAD, lw=0.6)
         panel.axvline(place[part][-1], color="0.7", lw=0.5)
         if math.isfinite(depth):
-            panel.plot(place[part][[0, -1]], [depth, depth], "-", color=_REMOVED, lw=1.0, label="mean segment depth")
+            panel.plot(place[part][[0, -1]], [depth, depth], "-", color=_REMOVED, lw=1.0, label="Mean segment depth")
         for half in (slice(0, points // 2), slice(points // 2, None)):
             at = int(np.argmax(level[half])) + (half.start or 0)
-            panel.plot(place[part][at], level[at], "v", color=_MODEL, ms=3.0, label="highest point of a half")
+            panel.plot(place[part][at], level[at], "v", color=_MODEL, ms=3.0, label="Highest point of a half")
     panel.axhline(0.0, color="0.7", lw=0.5)
     _legend(panel)
     return figure
 
 
 def _window(found: Analysis) -> Figure:
-    figure, panel = _axes(DOUBLE_COLUMN, "distance in the window (mm)", "height (mm)")
+    figure, panel = _axes(DOUBLE_COLUMN, "Distance in the window (mm)", "Height (mm)")
     road = found.road()
     profile = found.cleaned.profile
     points = round(road.period / profile.spacing)
@@ -191,11 +201,16 @@ def _window(found: Analysis) -> Figure:
     raw = profile.heights[:points] - (
         profile.heights[points - 1] - window(profile, found.window, 1, found.blend)[0][-1]
     )
-    panel.axvspan(0.0, found.blend * road.period, color=_PALE, lw=0.0, zorder=0, label="blended")
-    panel.plot(place, raw, "-", color="0.5", lw=0.6, label="profile")
+    panel.axvspan(0.0, found.blend * road.period, color=_PALE, lw=0.0, zorder=0, label="Blended")
+    panel.plot(place, raw, "-", color="0.5", lw=0.6, label="Profile")
     fine = np.linspace(0.0, road.period, min(4 * points, 8000))
     panel.plot(
-        fine, road.height(fine), "-", color=_REMOVED, lw=0.8, label=f"periodic, waves of {found.cutoff:g} mm and longer"
+        fine,
+        road.height(fine),
+        "-",
+        color=_REMOVED,
+        lw=0.8,
+        label=f"Periodic, waves of {plain(found.cutoff, 4)} mm and longer",
     )
     panel.set_xlim(0.0, road.period)
     _legend(panel)

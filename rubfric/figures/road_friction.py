@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from rubfric.figures.bands import draw_band
+from rubfric.figures.scaling import plain, scale_speeds, tick_decades
 from rubfric.figures.style import DOUBLE_COLUMN, applied, kinds
 
 _HEIGHT = 2.75
@@ -58,22 +59,24 @@ def over_speed(table: pd.DataFrame) -> Figure:
         ):
             values = rows[name].to_numpy()
             draw_band(axes, speeds, values, errors, colour)
-            axes.plot(speeds, values, lw=0.9, label=f"{pressure:g} MPa", **look)
+            axes.plot(speeds, values, lw=0.9, label=f"{plain(pressure)} MPa", **look)
             axes.plot(speeds, rows[theory], ":", lw=0.9, color=colour)
             sines = table[(table["way"] == "sines") & (table["pressure_MPa"] == pressure)]
             axes.plot(sines["velocity_mm_per_s"], sines[name], "-.", lw=0.9, color=colour)
     panel.plot([], [], ":", color="0.3", lw=0.9, label="Persson's theory")
     if (table["way"] == "sines").any():
-        panel.plot([], [], "-.", color="0.3", lw=0.9, label="sines of the same spectrum")
-    for axes, ordinate in ((panel, "friction coefficient (-)"), (share, "contact fraction (-)")):
-        axes.set(xscale="log", xlabel="sliding speed (mm/s)", ylabel=ordinate)
+        panel.plot([], [], "-.", color="0.3", lw=0.9, label="Sines of the same spectrum")
+    for axes, ordinate in ((panel, "Friction coefficient"), (share, "Contact fraction")):
+        axes.set(xlabel="Sliding speed (mm/s)", ylabel=ordinate)
+        scale_speeds(axes, finest["velocity_mm_per_s"].to_numpy())
     contact = finest[["contact_fraction", "contact_persson"]]
     if contact.max(axis=None) > _DECADES * contact.min(axis=None):
         share.set_yscale("log")
+        tick_decades(share.yaxis, *share.get_ylim())
     else:
         share.set_ylim(bottom=0.0)
     panel.set_ylim(bottom=0.0)
-    panel.set_title(f"waves of {finest['cutoff_mm'].iloc[0]:g} mm and longer", loc="left")
+    panel.set_title(f"Waves of {plain(finest['cutoff_mm'].iloc[0], 4)} mm and longer", loc="left")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", handlelength=1.6, ncols=4)
     return figure
 
@@ -97,22 +100,22 @@ def over_cutoff(table: pd.DataFrame) -> Figure:
         waves = 2.0 * np.pi / rows["cutoff_mm"].to_numpy()
         friction, direct = rows["friction_coefficient"].to_numpy(), (rows["way"] == "direct").to_numpy()
         draw_band(panel, waves[direct], friction[direct], _errors(rows[direct]), look["color"])
-        panel.plot(waves[direct], friction[direct], lw=0.9, label=f"{speed:g} mm/s, {pressure:g} MPa", **look)
+        panel.plot(waves[direct], friction[direct], lw=0.9, label=f"{plain(speed)} mm/s, {plain(pressure)} MPa", **look)
         beyond = np.flatnonzero(~direct)
         if beyond.size:
             places = np.concatenate(([beyond[0] - 1], beyond))
             panel.plot(waves[places], friction[places], "--", lw=0.9, color=look["color"])
     if (table["way"] != "direct").any():
-        panel.plot([], [], "--", color="0.3", lw=0.9, label="finer waves by Persson's theory")
-    panel.set(xscale="log", xlabel="largest wavenumber kept (1/mm)", ylabel="friction coefficient (-)")
+        panel.plot([], [], "--", color="0.3", lw=0.9, label="Finer waves by Persson's theory")
+    panel.set(xscale="log", xlabel="Largest wavenumber kept (1/mm)", ylabel="Friction coefficient")
     panel.set_ylim(bottom=0.0)
     cutoffs = np.sort(table["cutoff_mm"].unique())
     panel.set_xticks(2.0 * np.pi / cutoffs, [f"{2.0 * np.pi / one:.3g}" for one in cutoffs])
     panel.minorticks_off()
     upper = panel.secondary_xaxis("top", functions=(_wavelength, _wavelength))
-    upper.set_xticks(cutoffs, [f"{one:g}" for one in cutoffs])
+    upper.set_xticks(cutoffs, [plain(one, 4) for one in cutoffs])
     upper.minorticks_off()
-    upper.set_xlabel("shortest wavelength kept (mm)")
+    upper.set_xlabel("Shortest wavelength kept (mm)")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside right upper", handlelength=1.6)
     return figure
 

@@ -67,9 +67,17 @@ def scale_decades(axes: Axes, low: float, high: float) -> None:
     tick_decades(axes.yaxis, low, high)
 
 
-def plain(value: float) -> str:
-    """Return a number as a tick has it: where it needs an exponent, with a minus sign in that."""
-    mantissa, _, exponent = written(value).partition("e")
+def plain(value: float, digits: int = 12) -> str:
+    """Return a number as figures have it: with minus signs and no hyphens, and a power of ten where it needs one.
+
+    Parameters
+    ----------
+    value : float
+    digits : int
+        Significant ones at most.
+    """
+    mantissa, _, exponent = written(float(f"{value:.{digits}g}")).partition("e")
+    mantissa = mantissa.replace("-", "\N{MINUS SIGN}")
     if not exponent:
         return mantissa
     power = f"10^{{{int(exponent)}}}"
@@ -86,7 +94,7 @@ def tick_decades(axis: Axis, low: float, high: float) -> None:
         Its limits, positive.
     """
     decades = np.log10(high / low)
-    between = (1.0,) if decades > 4.0 else (1.0, 2.0, 5.0) if decades > 0.8 else tuple(np.arange(1.0, 10.0))
+    between = (1.0,) if decades > 3.5 else (1.0, 2.0, 5.0) if decades > 0.8 else tuple(np.arange(1.0, 10.0))
     axis.set_major_locator(LogLocator(10.0, subs=between, numticks=25))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))

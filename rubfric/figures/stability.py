@@ -22,34 +22,34 @@ _LOOKS: dict[str, dict[str, Any]] = {
     "failed": {"facecolor": "#c1121f", "edgecolor": "black", "hatch": "xxxx"},
 }
 _AXES = {
-    "velocity_mm_per_s": "speed, mm/s",
-    "pressure_MPa": "pressure, MPa",
-    "aspect": "height / width",
-    "slope": "slope of the road",
-    "wavelength_mm": "wavelength, mm",
+    "velocity_mm_per_s": "Speed (mm/s)",
+    "pressure_MPa": "Pressure (MPa)",
+    "aspect": "Height-to-width ratio",
+    "slope": "Slope of the road",
+    "wavelength_mm": "Wavelength (mm)",
     "poissons_ratio": "Poisson's ratio",
-    "waves": "waves (left slow, right fast)",
-    "rms": "rms slope\n(below light)",
+    "waves": "Waves (left slow, right fast)",
+    "rms": "RMS slope\n(below light)",
     "branches": "Prony branches",
-    "relaxed_share": "relaxed share",
+    "relaxed_share": "Relaxed share",
 }
 # Panel of the table: title, abscissa, ordinate.
 _ROWS = {
-    "speed_pressure": ("speed and pressure", "velocity_mm_per_s", "pressure_MPa"),
-    "limits": ("one branch", "velocity_mm_per_s", "pressure_MPa"),
-    "aspect_slope": ("block and slope", "aspect", "slope"),
-    "waves": ("many waves", "waves", "slope"),
-    "wavelength_speed": ("wavelength", "wavelength_mm", "velocity_mm_per_s"),
+    "speed_pressure": ("Speed and pressure", "velocity_mm_per_s", "pressure_MPa"),
+    "limits": ("One branch", "velocity_mm_per_s", "pressure_MPa"),
+    "aspect_slope": ("Block and slope", "aspect", "slope"),
+    "waves": ("Many waves", "waves", "slope"),
+    "wavelength_speed": ("Wavelength", "wavelength_mm", "velocity_mm_per_s"),
     "poisson_pressure": ("Poisson's ratio", "poissons_ratio", "pressure_MPa"),
-    "branches_share": ("rubber", "branches", "relaxed_share"),
-    "march_speed_pressure": ("in time", "velocity_mm_per_s", "pressure_MPa"),
-    "march_branches_share": ("in time", "branches", "relaxed_share"),
+    "branches_share": ("Rubber", "branches", "relaxed_share"),
+    "march_speed_pressure": ("In time", "velocity_mm_per_s", "pressure_MPa"),
+    "march_branches_share": ("In time", "branches", "relaxed_share"),
 }
 _WAYS = [(plane, kinematics) for plane in ("stress", "strain") for kinematics in ("small", "finite")]
 _CORNERS = [(motion, plane) for motion in ("steady", "march") for plane in ("stress", "strain")]
 _HEIGHT = 11.0
 # Labels are small, since squares are; of more values than this every other one is written.
-_LABEL_SIZE, _MOST_LABELS = 5.5, 6
+_LABEL_SIZE, _MOST_LABELS = 6.0, 6
 
 
 @applied()
@@ -84,9 +84,11 @@ def draw(table: pd.DataFrame) -> Figure:
         axes[0].set_ylabel(_AXES["rms" if panel == "waves" else ordinate])
         axes[-1].annotate(title, (1.03, 0.5), xycoords="axes fraction", rotation=-90, ha="left", va="center")
     for panel, (plane, kinematics) in zip(grid[0], _WAYS, strict=True):
-        panel.set_title(f"plane {plane}, {kinematics} strain")
+        panel.set_title(f"Plane {plane}, {kinematics} strain")
     _corners(list(grid[-1]), table[table["panel"] == "corners"])
-    seen = [Patch(label=f"{look} ({(table['look'] == look).sum()})", **style) for look, style in _LOOKS.items()]
+    seen = [
+        Patch(label=f"{look.capitalize()} ({(table['look'] == look).sum()})", **style) for look, style in _LOOKS.items()
+    ]
     figure.legend(handles=seen, loc="outside upper center", ncols=len(seen), title=f"{len(table)} cases")
     return figure
 
@@ -141,9 +143,9 @@ def _corners(axes: list[Axes], part: pd.DataFrame) -> None:
         panel.set_yticks([1e-6, 1e-3, 1.0, 1e3], None if panel is axes[0] else [])
         panel.minorticks_off()
         panel.tick_params(labelsize=_LABEL_SIZE)
-        panel.set_title(f"plane {plane}, {'in time' if motion == 'march' else 'steady'}")
+        panel.set_title(f"Plane {plane}, {'in time' if motion == 'march' else 'steady'}")
     axes[0].set_ylabel(_AXES["pressure_MPa"])
-    axes[-1].annotate("corners", (1.03, 0.5), xycoords="axes fraction", rotation=-90, ha="left", va="center")
+    axes[-1].annotate("Corners", (1.03, 0.5), xycoords="axes fraction", rotation=-90, ha="left", va="center")
 
 
 def _written(value: float) -> str:

@@ -13,9 +13,11 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
+from rubfric.figures.palette import scale_colour
 from rubfric.files import whole
 from rubfric.results.selection import written
 
@@ -36,8 +38,6 @@ RC_PARAMS: dict[str, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.axisbelow": True,
-    # Within Latin-1, a PDF needs one font only.
-    "axes.unicode_minus": False,
     "xtick.labelsize": 6.5,
     "ytick.labelsize": 6.5,
     "xtick.major.width": 0.6,
@@ -140,6 +140,12 @@ def kinds(count: int) -> list[dict[str, Any]]:
 def dashes(count: int) -> list[Any]:
     """Return the dashes of each of some lines; they repeat after five."""
     return [_DASHES[place % len(_DASHES)] for place in range(count)]
+
+
+def scale_area(scale: int) -> dict[str, Any]:
+    """Return how the area of a scale is filled, 1 having the longest wave: its colour mixed with white, and hatched."""
+    tint = tuple(0.45 * np.asarray(to_rgb(scale_colour(scale))) + 0.55)
+    return {"facecolor": tint, "edgecolor": "0.15", "hatch": HATCHES[(scale - 1) % len(HATCHES)], "linewidth": 0.5}
 
 
 def percent(share: float) -> str:

@@ -5,19 +5,14 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from rubfric.figures import panels, style
-from rubfric.results.selection import written
-
-
-def signed(temperature: float) -> str:
-    """Return a temperature as figures have it, with a minus sign and no hyphen."""
-    return written(temperature).replace("-", "\N{MINUS SIGN}")
+from rubfric.figures.scaling import plain
 
 
 def temperature_words(temperature: float | None) -> list[str]:
     """Return the sentence of a note on a temperature in degC; none where there is none."""
     if temperature is None:
         return []
-    return [f"Rubber at {signed(temperature)} °C."]
+    return [f"Rubber at {plain(temperature)} °C."]
 
 
 def name_temperature(figure: Figure, temperature: float | None) -> Figure:
@@ -33,5 +28,5 @@ def name_temperature(figure: Figure, temperature: float | None) -> Figure:
     """
     if temperature is not None and figure.get_layout_engine() is not None:
         with style.applied():
-            panels.write_note(figure, [*figure.get_supxlabel().splitlines(), *temperature_words(temperature)])
+            panels.write_note(figure, temperature_words(temperature))
     return figure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,7 +11,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
@@ -34,6 +34,8 @@ PROFILE = "the profile itself"
 # The columns of the parts of its error that are not of mesh and solver.
 _PIECES = ("friction_coupling_error", "friction_road_error", RUBBER_PART)
 _HALO = "white"
+# Letters of a line in the legend.
+_LETTERS = 28
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,8 @@ class Totals:
         How each total was obtained.
     friction, errors : dict of numpy.ndarray
         The friction coefficient by each way, and its whole absolute error.
+    warnings : numpy.ndarray, shape (speeds,)
+        How many warnings the scenes behind each total carry; 0 where that is not known.
     pieces : dict of numpy.ndarray
         The parts of ``error`` besides that of mesh and solver, by column.
     drawn : bool
@@ -66,6 +70,7 @@ class Totals:
     ways: NDArray[np.str_]
     friction: dict[str, Array]
     errors: dict[str, Array]
+    warnings: Array
     pieces: dict[str, Array]
     drawn: bool
     windows: bool
@@ -157,6 +162,7 @@ def totals(table: pd.DataFrame, pressure: float) -> Totals:
         ways=rows["way"].to_numpy(dtype=np.str_),
         friction={way: column(name) for way, name in friction.items()},
         errors={way: column(name) for way, name in errors.items()},
+        warnings=np.nan_to_num(column("warnings")) if "warnings" in rows else np.zeros(len(rows)),
         pieces={name: column(name) for name in _PIECES if name in rows},
         drawn=bool(rows["friction_road_error"].notna().any()),
         windows=windows,
@@ -178,13 +184,12 @@ def draw_total(panel: Axes, found: Totals) -> Line2D:
         The line, for the legend.
     """
     other = found.other
-    draw_band(panel, found.speeds, found.main, found.error, _HALO, zorder=2.5)
+    halo: dict[str, Any] = {"color": _HALO, "linewidth": 3.2, "marker": "o", "markersize": 6.0, "clip_on": False}
+    panel.plot(found.speeds, found.main, gid="halo", zorder=2.4, **halo)
+    draw_band(panel, found.speeds, found.main, found.error, _HALO, zorder=2.5, opacity=1.0)
     draw_parts(panel, found.speeds, found.main, list(found.parts.values()), zorder=2.5)
-    halo = [withStroke(linewidth=3.2, foreground=_HALO)]
     look: dict[str, Any] = {"color": "black", "linewidth": 1.7, "marker": "o", "zorder": 3.0, "clip_on": False}
-    (line,) = panel.plot(
-        found.speeds, found.main, label=f"total: {found.words(found.way)},\n{found.road}", path_effects=halo, **look
-    )
+    (line,) = panel.plot(found.speeds, found.main, label=f"Total: {found.words(found.way)},\n{found.road}", **look)
     if other.any():
         place, value, error = (values[other] for values in (found.speeds, found.total, found.error))
         panel.errorbar(
@@ -203,5 +208,5 @@ def other_handles(found: Sequence[Totals]) -> list[Line2D]:
     ways = sorted({WAYS.get(str(way), str(way)) for one in found for way in one.ways[one.other]})
     if not ways:
         return []
-    words = f"not solved: {', '.join(ways)},\nwith all of its error"
+    words = textwrap.fill(f"Not solved: {', '.join(ways)}, with all of its error", _LETTERS)
     return [Line2D([], [], color="black", linestyle="none", marker="o", markerfacecolor="white", label=words)]

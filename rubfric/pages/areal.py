@@ -22,7 +22,7 @@ _SIDE, _BYTES = 256, 1_500_000
 _BEYOND = 0.02
 
 
-def areal_page(results: Sequence[xr.Dataset], table: pd.DataFrame, road: str) -> str:
+def areal_page(results: Sequence[xr.Dataset], table: pd.DataFrame, road: str, csv: str = "", home: str = "") -> str:
     """Return the page.
 
     Parameters
@@ -33,6 +33,8 @@ def areal_page(results: Sequence[xr.Dataset], table: pd.DataFrame, road: str) ->
         As from ``rubfric.results.areal_table.areal_table`` of these.
     road : str
         Its name.
+    csv, home : str
+        Links to the table as CSV and to the page of all results; none where ``home`` is empty.
     """
     first = results[0]
     periods = [float(first[name][1]) * first.sizes[name] for name in ("x", "y")]
@@ -47,6 +49,8 @@ def areal_page(results: Sequence[xr.Dataset], table: pd.DataFrame, road: str) ->
         "areal.html",
         title=f"Areal road {road}",
         lead=lead,
+        csv=csv,
+        home=home,
         warnings=[sentence(off)] if off else [],
         maps=maps(results, table, periods),
         **table_cells(table, group="pressure_MPa"),

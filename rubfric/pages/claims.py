@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
+from urllib.parse import urlencode
 
 import pandas as pd
 
 from rubfric.config.models import AS_CONFIGURED
 from rubfric.markdown import markdown_table
-from rubfric.pages.render import render
+from rubfric.pages.claim_plots import HEIGHT, WIDTH, percent, strip
+from rubfric.pages.render import render, sentence
 from rubfric.studies.paper.verdicts import EVERY, FAILS, HOLDS, IN_PART, SIMULATED, UNDECIDED
 
 
@@ -22,10 +24,19 @@ class _Chip(NamedTuple):
     kind: str
 
 
+# The figure of what the paper has no figure of.
+_FIGURES = {"Section 2.2": "fig10"}
 _MARKS = {HOLDS: ("●", "yes"), IN_PART: ("◐", "part"), FAILS: ("○", "no"), UNDECIDED: ("–", "open"), "": ("", "open")}
 
 
-def claims_page(claims: pd.DataFrame, evidence: pd.DataFrame, about: Mapping[str, str]) -> str:
+def claims_page(
+    claims: pd.DataFrame,
+    evidence: pd.DataFrame,
+    about: Mapping[str, str],
+    figures: Collection[str] = (),
+    explorer: str = "",
+    home: str = "",
+) -> str:
     """Return the page as HTML.
 
     Parameters
@@ -34,6 +45,10 @@ def claims_page(claims: pd.DataFrame, evidence: pd.DataFrame, about: Mapping[str
         As from ``claims_table`` and ``evidence_table`` of ``rubfric.studies.paper.verdicts``.
     about : mapping of str to str
         By the name of the reading: what was run, in words. The page has the readings in this order.
+    figures : collection of str
+        Names of the figures that are beside the page, ``figures/NAME.png``.
+    explorer, home : str
+        Links to the explorer and to the page of all results; none where they are empty.
     """
     whole = claims[claims["pressure_MPa"] == EVERY]
     others = [name for name in claims["reading"].unique() if name != AS_CONFIGURED]
@@ -44,8 +59,12 @@ def claims_page(claims: pd.DataFrame, evidence: pd.DataFrame, about: Mapping[str
         "claims.html",
         title="Which claims of the paper are reproduced",
         about=about[AS_CONFIGURED],
+        home=home,
+        width=WIDTH,
+        height=HEIGHT,
         claims=[
-            _claim(row, evidence) | {"others": [_chip(_verdict(whole, row["claim"], name)) for name in others]}
+            _claim(row, evidence, figures, explorer)
+            | {"others": [_chip(_verdict(whole, row["claim"], name)) for name in others]}
             for _, row in whole[whole["reading"] == AS_CONFIGURED].iterrows()
         ],
         others=[
@@ -72,22 +91,26 @@ def claims_text(claims: pd.DataFrame) -> str:
     return markdown_table(rows)
 
 
-def _claim(row: pd.Series, evidence: pd.DataFrame) -> dict[str, Any]:
+def _claim(row: pd.Series, evidence: pd.DataFrame, figures: Collection[str], explorer: str) -> dict[str, Any]:
     """Return what the page shows of one claim as judged by the campaign itself."""
     own = evidence[(evidence["claim"] == row["claim"]) & (evidence["reading"] == AS_CONFIGURED)]
+    decides = own[(own["value"] == row["value"]) & (own["quantity"] == row["deciding_quantity"])]
     return {
+        "links": _links(row, decides, figures, explorer),
         "name": row["claim"],
         "says": row["says"],
         "figure": row["figure"],
         "verdict": _chip(row["verdict"]),
         "number": _number(row),
-        "note": f"{row['parts']}. {row['note']}".strip() if row["parts"] else row["note"],
+        "note": f"{sentence(row['parts'])} {row['note']}".strip() if row["parts"] else row["note"],
         "parts": [
             {
                 "name": part,
                 "quantity": found["quantity"].iloc[0],
+                "plot": strip(found, row["value"] if part in set(decides["part"]) else None),
+                "label": f"{part}: {_counts(found)}; {_limit(found)}, found {_span(found['value'])}",
                 "cells": [
-                    f"{found['sense'].iloc[0]} {_percent(found['limit'].iloc[0])}",
+                    _limit(found),
                     _span(found["value"]),
                     _span(found["error"]),
                     *((found["outcome"] == word).sum() for word in ("yes", "no", "open")),
@@ -98,6 +121,26 @@ def _claim(row: pd.Series, evidence: pd.DataFrame) -> dict[str, Any]:
     }
 
 
+def _limit(found: pd.DataFrame) -> str:
+    return f"{found['sense'].iloc[0]} {percent(found['limit'].iloc[0])}"
+
+
+def _counts(found: pd.DataFrame) -> str:
+    return ", ".join(f"{(found['outcome'] == word).sum()} {word}" for word in ("yes", "no", "open"))
+
+
+def _links(row: pd.Series, decides: pd.DataFrame, figures: Collection[str], explorer: str) -> dict[str, str]:
+    """Return links to the figure of a claim, where it was drawn, and to the deciding scene in the explorer."""
+    figure = _FIGURES.get(row["figure"], row["figure"].replace("Fig. ", "fig"))
+    links = {f"Fig. {figure.removeprefix('fig')}": f"figures/{figure}.png"} if figure in figures else {}
+    if explorer and len(decides):
+        first = decides.iloc[0]
+        place = {"scale": first["scale"], "pressure": first["pressure_MPa"], "speed": first["velocity_mm_per_s"]}
+        known = {"scale": "total"} | {name: f"{float(at):g}" for name, at in place.items() if pd.notna(at)}
+        links["the deciding number in the explorer"] = f"{explorer}#{urlencode(known)}"
+    return links
+
+
 def _number(row: pd.Series) -> str:
     """Return the deciding number in words."""
     if not isinstance(row["where"], str):
@@ -105,15 +148,9 @@ def _number(row: pd.Series) -> str:
     sense, limit = row["limit"].split()
     error = row["error"] if math.isfinite(row["error"]) else math.nan
     return (
-        f"{row['deciding_quantity']}: {_percent(row['value'], error)} (has to be {sense} "
-        f"{_percent(float(limit))}), {row['where']}"
+        f"{row['deciding_quantity']}: {percent(row['value'], error)} (has to be {sense} "
+        f"{percent(float(limit))}), {row['where']}"
     )
-
-
-def _percent(value: float, error: float = math.nan) -> str:
-    """Return a share in per cent, its error beside it where there is one."""
-    spread = "" if math.isnan(error) or error == 0.0 else f" ± {100.0 * error:.2g}"
-    return f"{100.0 * value + 0.0:.3g}{spread} %".replace("-", "\N{MINUS SIGN}")
 
 
 def _span(values: pd.Series) -> str:
@@ -121,7 +158,7 @@ def _span(values: pd.Series) -> str:
     if known.empty:
         return "not estimated"
     low, high = float(known.min()), float(known.max())
-    return _percent(low) if low == high else f"{_percent(low)} to {_percent(high)}"
+    return percent(low) if low == high else f"{percent(low)} to {percent(high)}"
 
 
 def _verdict(whole: pd.DataFrame, claim: str, reading: str) -> str:

@@ -32,6 +32,7 @@ _EXPLORER = (
 _ASSETS = {
     "table": ("page.html", "page.css", "table.html", "cells.html"),
     "claims": ("page.html", "page.css", "claims.html"),
+    "index": ("page.html", "page.css", "index.html"),
     "rubber": ("page.html", "page.css", "findings.html", "rubber.html"),
     "road": ("page.html", "page.css", "findings.html", "road.html"),
     "slide": ("page.html", "page.css", "findings.html", "slide.html"),

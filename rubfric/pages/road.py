@@ -29,7 +29,7 @@ _CAPTIONS = {
 _DOUBLE = ("before and after", "mean profile depth", "window")
 
 
-def road_page(found: Analysis, name: str, entry: str) -> str:
+def road_page(found: Analysis, name: str, entry: str, home: str = "") -> str:
     """Return the page.
 
     Parameters
@@ -39,6 +39,8 @@ def road_page(found: Analysis, name: str, entry: str) -> str:
         The road's name.
     entry : str
         Its entry in a config, as YAML.
+    home : str
+        Link to the page of all results; none where it is empty.
     """
     profile = found.cleaned.measured
     figures = [
@@ -52,6 +54,7 @@ def road_page(found: Analysis, name: str, entry: str) -> str:
         "road.html",
         title=f"Road {name}",
         lead=lead,
+        home=home,
         warnings=[sentence(words) for words in (*found.warnings(), *profile.notes)],
         removed=list(found.cleaned.removed),
         rows=list(results(found)),

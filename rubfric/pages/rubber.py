@@ -26,7 +26,7 @@ _CAPTIONS = {
 }
 
 
-def rubber_page(fit: Fit, bands: Bands, name: str, entry: str) -> str:
+def rubber_page(fit: Fit, bands: Bands, name: str, entry: str, home: str = "") -> str:
     """Return the page.
 
     Parameters
@@ -37,6 +37,8 @@ def rubber_page(fit: Fit, bands: Bands, name: str, entry: str) -> str:
         The rubber's name.
     entry : str
         Its entry in a config, as YAML.
+    home : str
+        Link to the page of all results; none where it is empty.
     """
     low, high = fit.window
     where = "a master curve" if fit.data.is_master else f"{len(fit.data.temperatures)} temperatures"
@@ -51,6 +53,7 @@ def rubber_page(fit: Fit, bands: Bands, name: str, entry: str) -> str:
         "rubber.html",
         title=f"Rubber {name}",
         lead=lead,
+        home=home,
         warnings=[sentence(words) for words in (*fit.warnings, *fit.data.notes)],
         rows=list(results(fit, bands)),
         figures=figures,

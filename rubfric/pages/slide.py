@@ -37,7 +37,7 @@ _HEADINGS = (
 )
 
 
-def slide_page(table: pd.DataFrame, name: str, lead: str) -> str:
+def slide_page(table: pd.DataFrame, name: str, lead: str, csv: str = "", home: str = "") -> str:
     """Return the page.
 
     Parameters
@@ -48,6 +48,8 @@ def slide_page(table: pd.DataFrame, name: str, lead: str) -> str:
         Of the road.
     lead : str
         What slid over it.
+    csv, home : str
+        Links to the table as CSV and to the page of all results; none where ``home`` is empty.
     """
     figures = [
         (key, _CAPTIONS[key], base64.b64encode(png(figure)).decode("ascii")) for key, figure in draw(table).items()
@@ -57,6 +59,8 @@ def slide_page(table: pd.DataFrame, name: str, lead: str) -> str:
         "slide.html",
         title=f"Friction on {name}",
         lead=lead,
+        csv=csv,
+        home=home,
         warnings=list(_warnings(table)),
         figures=figures,
         double=tuple(_CAPTIONS),

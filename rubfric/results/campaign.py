@@ -20,7 +20,7 @@ from rubfric.mechanics.steady.energies import disagreement
 from rubfric.results.dataset import load
 from rubfric.results.provenance import CONVENTIONS, OTHER_SCENE, PAPER
 from rubfric.results.scalars import OF_MEASURED, SCALARS, attributes
-from rubfric.results.selection import REFUSAL, REFUSALS, RUBBER_ERROR
+from rubfric.results.selection import REFUSAL, REFUSALS, RUBBER_ERROR, WARNINGS
 from rubfric.results.temperature import ABOUT, AXIS, MATERIALS
 
 AXES: dict[str, tuple[str, str]] = {
@@ -31,7 +31,6 @@ AXES: dict[str, tuple[str, str]] = {
 }
 # Of all scales at once, which are scale 0, the smallest of each.
 _ROAD = {"amplitude": ("mm", "peak-to-mean height of the scale"), "wavenumber": ("mm-1", "wavenumber of the scale")}
-_WARNINGS = "warnings"
 _ROUTES = ("friction_coefficient", "friction_coefficient_dissipation", "friction_coefficient_contact")
 # The attribute of a collection that stands for the scenes that it was collected from.
 COLLECTED = "scene_digests"
@@ -151,7 +150,7 @@ def _read_scalars(path: str, digest: str | None) -> _Found:
             own = [*SCALARS, *(name for name in OF_MEASURED if name in stored.variables)]
             values = {} if refused else {name: float(stored[name][...]) for name in own}
             if not refused:
-                values[_WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
+                values[WARNINGS] = float(len(list(filter(None, stored.getncattr("warnings").splitlines()))))
             common = {name: str(stored.getncattr(name)) for name in ("rubber", "plane", "kinematics")}
             parameters = json.loads(stored.getncattr("scene_parameters"))
             common |= {name: json.dumps(parameters[name], sort_keys=True) for name in ("material", "numerics")}
@@ -189,7 +188,7 @@ def _assemble(found: list[_Found], road: dict[float, dict[str, float]], material
     axes = {name: np.array(sorted({one.point[place] for one in found})) for place, name in enumerate(about_axes)}
     shape = tuple(len(axis) for axis in axes.values())
     of_measured = {name: about for name, about in OF_MEASURED.items() if any(name in one.values for one in found)}
-    about_all = SCALARS | of_measured | {_WARNINGS: ("1", "number of warnings in the attributes of the result")}
+    about_all = SCALARS | of_measured | {WARNINGS: ("1", "number of warnings in the attributes of the result")}
     arrays = {name: np.full(shape, np.nan) for name in about_all}
     for one in found:
         index = tuple(int(np.searchsorted(axis, value)) for axis, value in zip(axes.values(), one.point, strict=True))

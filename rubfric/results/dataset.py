@@ -181,6 +181,18 @@ def write(result: xr.Dataset, path: str | os.PathLike[str]) -> None:
     ------
     NotWritten
         Where the disk is full or the place is not writable; the message says what to do.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import rubfric, xarray
+    >>> result = rubfric.simulate(rubfric.load().scene(scale=1, velocity=100, pressure=0.5, kinematics="small"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     rubfric.write(result, Path(folder, "scene.nc"))
+    ...     with xarray.open_dataset(Path(folder, "scene.nc")) as kept:
+    ...         print(kept.friction_coefficient.equals(result.friction_coefficient))
+    True
     """
     result = result.assign({_CHECKSUM: ((), np.bytes_(PLACEHOLDER), attributes("1", "checksum of this file"))})
     # Nothing is missing from a field, so none has a fill value, except in a campaign, where not all was run.

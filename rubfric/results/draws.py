@@ -11,7 +11,7 @@ import xarray as xr
 from rubfric.checksums import fingerprint
 from rubfric.results.campaign import COLLECTED
 from rubfric.results.scalars import attributes
-from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, WINDOWS, refusals
+from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, WARNINGS, WINDOWS, refusals
 
 _FRICTION = "friction_coefficient"
 
@@ -31,8 +31,8 @@ def over_draws(collected: Sequence[xr.Dataset], windows: bool = False) -> xr.Dat
     xarray.Dataset
         The means over the roads that were solved; ``draws``, their number; and ``friction_road_error``, the standard
         error of the mean friction: the standard deviation over the roads over the root of their number, dimensionless,
-        and NaN for fewer than two roads. The mean of the roads' numerical errors bounds that of the mean. Why a
-        road was refused is said of the first at each point.
+        and NaN for fewer than two roads. ``warnings`` is the sum of those of all roads. The mean of the roads'
+        numerical errors bounds that of the mean. Why a road was refused is said of the first at each point.
     """
     roads = xr.concat(collected, "draw", combine_attrs="override", data_vars="all", coords="minimal", join="exact")
     friction = roads[_FRICTION]
@@ -43,6 +43,8 @@ def over_draws(collected: Sequence[xr.Dataset], windows: bool = False) -> xr.Dat
     found[ROAD_ERROR] = error.where(number > 1).assign_attrs(
         attributes("1", f"standard error of the mean friction coefficient over {over} of the road, absolute")
     )
+    if WARNINGS in roads:
+        found[WARNINGS] = roads[WARNINGS].sum("draw", min_count=1, keep_attrs=True)
     found[DRAWS] = number.assign_attrs(attributes("1", f"{kinds} that were solved"))
     reasons = {point: reason for one in reversed(collected) for point, reason in refusals(one).items()}
     found.attrs = {name: value for name, value in collected[0].attrs.items() if name != REFUSALS}

@@ -22,7 +22,7 @@ SCALARS: dict[str, tuple[str, str]] = {
     "energy_closure": ("1", "largest relative difference between the three friction coefficients"),
     "friction_resolution": ("1", "friction below which the solver cannot distinguish it from zero"),
     "contact_fraction": ("1", "contact area over nominal area, counted by nodes"),
-    "maximum_contact_pressure": ("MPa", "largest contact pressure"),
+    "maximum_contact_pressure": ("MPa", "largest contact pressure per undeformed area"),
     "maximum_local_contact_pressure": ("MPa", "largest contact pressure per deformed area"),
     "nominal_compression": ("1", "compression of the relaxed block by the load on a flat road, over its height"),
     "pressed_energy_density": ("MPa", "strain-energy density of the relaxed block on a flat road under the load"),

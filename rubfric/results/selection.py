@@ -24,6 +24,8 @@ REFUSALS = "refusals"
 DRAWS, ROAD_ERROR = "draws", "friction_road_error"
 # What they are in words where they are no roads with random phases.
 WINDOWS = "windows of the measured road"
+# The number of warnings of a scene in a collection of scenes, and of all scenes at a point in the table of totals.
+WARNINGS = "warnings"
 # What the data of a measured rubber leave open of friction, and how much of that comes from frequencies not measured.
 RUBBER_ERROR, BEYOND = "friction_coefficient_rubber_error", "friction_beyond_window"
 # Share of friction beyond the measured frequencies that is worth a word.

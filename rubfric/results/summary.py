@@ -34,7 +34,7 @@ def summary(result: xr.Dataset) -> str:
         _line("  from contact pressure", f"{float(result['friction_coefficient_contact']):.5g}"),
         _line("  largest difference", f"{float(result['energy_closure']):.2g} (relative)"),
         _line("contact fraction", f"{float(result['contact_fraction']):.4g}"),
-        _line("largest contact pressure", f"{float(result['maximum_local_contact_pressure']):.4g} MPa"),
+        _line("largest contact pressure", _pressures(result)),
         _line("nominal compression", f"{float(result['nominal_compression']):.3g}"),
         _line("effective Poisson's ratio", f"{float(result['effective_poissons_ratio']):.4f}"),
         _line("speed over shear-wave speed", f"{float(result['shear_wave_speed_ratio']):.2g}"),
@@ -76,6 +76,12 @@ def _is_profile(attributes: Mapping[str, Any]) -> bool:
 
 def _others(attributes: Mapping[str, Any]) -> str:
     return "stretches of the road" if _is_profile(attributes) else "phases of the waves"
+
+
+def _pressures(result: xr.Dataset) -> str:
+    """Return the largest contact pressure by both areas, in words."""
+    nominal, local = (float(result[name]) for name in ("maximum_contact_pressure", "maximum_local_contact_pressure"))
+    return f"{nominal:.4g} MPa per undeformed area, {local:.4g} MPa per deformed area"
 
 
 def _mesh(result: xr.Dataset) -> str:

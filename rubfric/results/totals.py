@@ -13,7 +13,16 @@ import xarray as xr
 from rubfric.config.multiscale import DIRECT
 from rubfric.errors import NotConverged
 from rubfric.results.scales import AXES, RUBBER_PART, TOTAL, WAYS, WORDS, total_error, total_friction
-from rubfric.results.selection import DRAWS, NOT_NEEDED, ROAD_ERROR, RUBBER_ERROR, WINDOWS, check_variables, refusals
+from rubfric.results.selection import (
+    DRAWS,
+    NOT_NEEDED,
+    ROAD_ERROR,
+    RUBBER_ERROR,
+    WARNINGS,
+    WINDOWS,
+    check_variables,
+    refusals,
+)
 from rubfric.results.tables import by_temperature
 from rubfric.results.temperature import at_temperature
 from rubfric.results.whole_road import WholeRoad
@@ -82,7 +91,8 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
         ``way``; its absolute error is the sum of ``friction_numerical_error``, ``friction_coupling_error``, which
         bounds what a model of the coupling of scales changes, and, where phases were drawn,
         ``friction_road_error``, the standard error of the mean over them, and, of a measured rubber,
-        ``friction_rubber_error``, what its data leave open. The other ways have their whole errors.
+        ``friction_rubber_error``, what its data leave open. The other ways have their whole errors. ``warnings`` is the
+        number of warnings of the scenes at a point: its scales', and those of the whole road that were solved.
 
     Raises
     ------
@@ -116,10 +126,11 @@ def total_table(campaign: xr.Dataset, whole: xr.Dataset | None, road: WholeRoad)
             | dict(zip(_PARTS, (counts.numerical, counts.coupling, counts.road), strict=True))
             | ({} if data is None else {RUBBER_PART: counts.rubber})
             | {"nominal_compression": float(one["nominal_compression"].max()), "refused": refused}
+            | {WARNINGS: _warnings(one) + (0 if whole is None else _warnings(whole.sel(place)))}
             | dict(zip(WORDS, (way, note), strict=True))
         )
     ways = [f"friction_{way}" for way in WAYS]
-    others = [*ways, *(f"{way}_error" for way in ways), *scales, "nominal_compression", "refused"]
+    others = [*ways, *(f"{way}_error" for way in ways), *scales, "nominal_compression", "refused", WARNINGS]
     parts = [*_PARTS, *([] if data is None else [RUBBER_PART])]
     return pd.DataFrame(rows, columns=[*AXES, *TOTAL, WORDS[0], *parts, *others, WORDS[1]])
 
@@ -149,6 +160,11 @@ def _direct(whole: xr.Dataset) -> _Total:
     if RUBBER_ERROR in at:
         total = total._replace(rubber=float(at[RUBBER_ERROR]))
     return total._replace(road=float(at[ROAD_ERROR]), draws=int(at[DRAWS])) if DRAWS in at else total
+
+
+def _warnings(at: xr.Dataset) -> int:
+    """Return the number of warnings of all scenes at one point; observations of the paper's readings have none."""
+    return int(at[WARNINGS].sum()) if WARNINGS in at else 0
 
 
 def _chosen(

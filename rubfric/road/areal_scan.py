@@ -47,6 +47,16 @@ class ScannedRoad:
     ------
     InvalidInput
         For a scan with too few heights, or of which half is missing; for other values that cannot be.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rubfric
+    >>> heights = np.random.default_rng(1).normal(scale=0.01, size=(48, 64))
+    >>> heights[10, 20] = np.nan  # not measured
+    >>> road = rubfric.ScannedRoad(heights, spacing=(0.02, 0.02), cut_off=0.2)
+    >>> road.missing, len(road.spectrum.periods)
+    (1, 2)
     """
 
     heights: Real

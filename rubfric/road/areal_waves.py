@@ -32,6 +32,13 @@ class ArealWaves:
     InvalidInput
         For waves without common periods short enough, with the nearest that have them; for lists of different lengths;
         for any value outside its bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.ArealWaves(amplitudes=[0.01, 0.01], wavenumbers=[10, 10], directions=[0, 90], phases=[0, 0])
+    >>> print("periods {:.3f} and {:.3f} mm".format(*road.spectrum.periods))
+    periods 0.628 and 0.628 mm
     """
 
     amplitudes: Annotated[

@@ -32,6 +32,13 @@ class SelfAffine:
     InvalidInput
         For any value outside its bounds, for wavelengths out of order, and unless one of ``rms_slope`` and
         ``rms_height`` is given.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.SelfAffine(hurst=0.8, period=1.0, cut_off=0.05, rms_slope=0.25, seed=2)
+    >>> road.spectrum.periods
+    (1.0, 1.0)
     """
 
     hurst: Annotated[float, Number("Hurst exponent H.", low=0.0, high=1.0)]

@@ -22,6 +22,13 @@ class SineScale:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.SineScale(amplitude=0.015, wavenumber=35.0)
+    >>> print(f"wavelength {road.wavelength:.3f} mm, slopes up to {road.steepest_slope:.3f}")
+    wavelength 0.180 mm, slopes up to 0.525
     """
 
     amplitude: Annotated[float, Number("Peak-to-mean height a; zero is a flat road.", "mm", low=0.0)]

@@ -38,6 +38,13 @@ class WaveRoad:
     InvalidInput
         For waves without a period short enough, with the nearest wavenumbers that have one; for lists of different
         lengths; for any value outside its bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.WaveRoad([0.01, 0.004], [10.0, 35.0], [0.0, 1.0])
+    >>> print(f"the period of {road.period:.3f} mm holds the coarsest wave {road.period / road.wavelength:.0f} times")
+    the period of 1.257 mm holds the coarsest wave 2 times
     """
 
     amplitudes: Annotated[tuple[float, ...], Items("a_j.", Number(unit="mm", low=0.0), distinct=False, ascending=False)]
@@ -91,7 +98,7 @@ class WaveRoad:
 
     @cached_property
     def steepest_slope(self) -> float:
-        """Largest |s'(x)| at 16 points of the finest wave, dimensionless."""
+        """Largest size of s'(x) at 16 points of the finest wave, dimensionless."""
         nodes = _SAMPLES * round(max(self.wavenumbers) / self.fundamental)
         return float(np.abs(self.slope(self.period / nodes * np.arange(nodes))).max())
 

@@ -42,6 +42,14 @@ class Material:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> soft = rubfric.Material("soft", 2.5, 0.49, shear_fractions=[0.3, 0.6], relaxation_times=[1e-3, 1e-6])
+    >>> modulus = soft.complex_shear_modulus(1e5)  # at 1e5 rad/s
+    >>> print(f"{modulus.real:.1f} MPa, loss factor {modulus.imag / modulus.real:.2f}")
+    3.4 MPa, loss factor 0.15
     """
 
     name: Annotated[str, Word("Name of the rubber, which is part of paths.")]
@@ -211,7 +219,7 @@ class Material:
         return ((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))).real
 
     def shear_wave_speed(self, frequency: ArrayLike) -> Real:
-        """Return the speed of shear waves, mm/s, with the stiffness |G*| at a frequency in rad/s."""
+        """Return the speed of shear waves, mm/s, with the size of G* at a frequency in rad/s as the stiffness."""
         return np.sqrt(np.abs(self.complex_shear_modulus(frequency)) / self.density)
 
 

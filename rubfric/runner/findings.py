@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
 from rubfric.results.comparison import headlines
-from rubfric.results.selection import RUBBER_ERROR, WINDOWS
+from rubfric.results.selection import RUBBER_ERROR, WARNINGS, WINDOWS
 
 # How a total was obtained, in words.
 WAYS = {
@@ -18,7 +18,7 @@ WAYS = {
     "cascade": "cascade from scale to scale",
     "persson": "Persson's theory",
 }
-_MOST_NAMED = 5
+_MOST_NAMED, _FEW = 5, 2
 
 
 def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
@@ -36,20 +36,21 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
 
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
-    scenes, warned, worst, where = 0, 0, -1.0, ""
-    data = -1.0
+    scenes, worst, where, data = 0, -1.0, "", -1.0
+    warned: list[tuple[str, dict[str, str]]] = []
     for path in tables:
-        for row in _rows(path, "friction_coefficient_error", "warnings"):
+        for row in _rows(path, "friction_coefficient_error", WARNINGS):
             friction, error = float(row["friction_coefficient"]), float(row["friction_coefficient_error"])
             scenes += 1
-            warned += int(row["warnings"]) > 0
+            if int(row[WARNINGS]):
+                warned.append((_scale(path), row))
             if friction and error / abs(friction) > worst:
                 worst, where = error / abs(friction), _place(path, row)
             if friction and row.get(RUBBER_ERROR):
                 data = max(data, float(row[RUBBER_ERROR]) / abs(friction))
     if not scenes:
         return []
-    carry = f"{warned} of {scenes} scenes carry a warning: column warnings of the tables, and the scenes' logs"
+    carry = f"{len(warned)} of {scenes} scenes carry a warning: {_named(warned)}; the words are in the scenes' logs"
     return [
         *([f"largest estimated error of friction {_percent(worst)}, {where}"] if where else []),
         *([f"beside that at most {_percent(data)} from the data of the rubber"] if data >= 0.0 else []),
@@ -73,7 +74,27 @@ def _of_totals(path: str | os.PathLike[str]) -> list[str]:
             f"scenes of the whole road were refused at {len(refused)} of {len(rows)} points: {named}{more}; why is in "
             f"{os.fspath(path)}, column note"
         )
+    warned = [("the whole road", row) for row in rows if int(row.get(WARNINGS) or 0)]
+    if warned:
+        lines.append(f"friction of {_named(warned)} rests on scenes that carry a warning")
     return lines
+
+
+def _named(warned: Iterable[tuple[str, dict[str, str]]]) -> str:
+    """Return in words where there are warnings, given each scale with a row of its table; speed by speed."""
+    groups: dict[str, dict[float, None]] = {}
+    for scale, row in warned:
+        speed = f"{scale} at {float(row['velocity_mm_per_s']):g} mm/s{_warm(row)}"
+        groups.setdefault(speed, {})[float(row["pressure_MPa"])] = None
+    named = [f"{speed}, {_pressures(sorted(of))}" for speed, of in groups.items()]
+    more = [f"and at {len(named) - _MOST_NAMED} more speeds"] if len(named) > _MOST_NAMED else []
+    return "; ".join([*named[:_MOST_NAMED], *more])
+
+
+def _pressures(pressures: list[float]) -> str:
+    if len(pressures) > _FEW:
+        return f"{len(pressures)} pressures from {pressures[0]:g} to {pressures[-1]:g} MPa"
+    return f"{' and '.join(f'{pressure:g}' for pressure in pressures)} MPa"
 
 
 def _percent(share: float) -> str:
@@ -119,9 +140,13 @@ def _rows(path: str | os.PathLike[str], *columns: str) -> list[dict[str, str]]:
 
 
 def _place(path: str | os.PathLike[str], row: dict[str, str]) -> str:
-    scale = os.path.splitext(os.path.basename(path))[0].rpartition("_")[2]
     height = f"height/width {row['aspect']}"
-    return f"on scale {scale} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa{_warm(row)}, {height}"
+    return f"on {_scale(path)} at {row['velocity_mm_per_s']} mm/s, {row['pressure_MPa']} MPa{_warm(row)}, {height}"
+
+
+def _scale(path: str | os.PathLike[str]) -> str:
+    """Return in words the scale of a table of one scale, given its path."""
+    return f"scale {os.path.splitext(os.path.basename(path))[0].rpartition('_')[2]}"
 
 
 def highest(path: str | os.PathLike[str]) -> str:

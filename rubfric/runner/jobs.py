@@ -27,6 +27,7 @@ from typing import Any, NamedTuple
 
 from rubfric.errors import RubfricError
 from rubfric.files import why_not
+from rubfric.runner import times
 
 # One thread each: the systems are small, and jobs run side by side.
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -172,8 +173,9 @@ def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:
     """Run one job with all output in its log; return the reason why it failed, or None."""
     try:
         _redirect(log)
-        main: Callable[..., None] = runpy.run_path(script)["main"]
-        main(**arguments)
+        with times.clock():
+            main: Callable[..., None] = runpy.run_path(script)["main"]
+            main(**arguments)
         sys.stdout.flush()
     except Exception as error:
         with contextlib.suppress(OSError):  # on a full disk

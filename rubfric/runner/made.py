@@ -53,7 +53,7 @@ class Made:
         return [path for path in self._tables if self._valid(path)]
 
     def places(self) -> list[str]:
-        """Return in a line or two what to open first, and where the results are."""
+        """Return in a line or two where the results are, and what to open first."""
         first = [path for path in self._first if self._valid(path)]
         folders = {what: f"{self._results}/{name}" for what, name in _FOLDERS.items()}
         within = {f"{os.path.dirname(path)}/" for path in self._made}
@@ -63,8 +63,8 @@ class Made:
             if self._valid(folder) or any(place.startswith(f"{folder}/") for place in within)
         ]
         return [
-            *([f"open first: {', '.join(first)}"] if first else []),
             *([", ".join(places).replace(" in ", " are in ", 1)] if places else []),
+            *([f"open first: {', '.join(first)}"] if first else []),
         ]
 
     def _valid(self, path: str) -> bool:

@@ -20,10 +20,12 @@ from snakemake.common import NOTHING_TO_BE_DONE_MSG
 from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
+from rubfric.errors import NotWritten
 from rubfric.runner.findings import findings
 from rubfric.runner.lines import Lines
 from rubfric.runner.made import Made
 from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
+from rubfric.runner.times import record, shares
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.
 _SHORTEST, _LONGEST = 5.0, 60.0
@@ -39,6 +41,8 @@ _SELECTING = "Select jobs to execute..."
 # Without the profile of the workflow, as within a module.
 _SLOW = "each job starts a Snakemake of its own, which takes seconds: --force-use-threads does without"
 _MOST_NAMED, _MOST_FAILURES = 5, 20
+# Kinds of jobs with a smaller share of the CPU time are not named.
+_LEAST_SHARE = 0.02
 
 
 class RunLog(logging.Handler):
@@ -250,6 +254,10 @@ class RunLog(logging.Handler):
         """Return the slowest jobs, and findings of the tables."""
         slowest = self._progress.slowest(_MOST_NAMED)
         lines = [f"slowest: {', '.join(f'{name} {duration(took)}' for name, took in slowest)}"] if slowest else []
+        with contextlib.suppress(NotWritten):  # on a full disk
+            cost = shares(record(self._folder))
+            total = sum(seconds for _, seconds, _ in cost.values())
+            lines += [f"CPU time behind these results {duration(total)}: {_parts(cost)}"] if total else []
         lines += findings(self._made.tables())
         return [
             *lines,
@@ -292,6 +300,12 @@ def _names(would: Sequence[tuple[str, str]]) -> list[str]:
         more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
         lines.append(f"  {rule}: {', '.join(names[:_MOST_NAMED])}{more}")
     return lines
+
+
+def _parts(cost: Mapping[str, tuple[int, float, float]]) -> str:
+    """Return what shares of the CPU time went into the kinds of jobs that took most of it."""
+    named = [f"{kind} {share:.0%}" for kind, (_, _, share) in cost.items() if share >= _LEAST_SHARE]
+    return f"{', '.join(named)} (of each job: logs/times.csv)"
 
 
 def _now() -> str:

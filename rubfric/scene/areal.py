@@ -33,6 +33,12 @@ class ArealNumerics:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> rubfric.ArealNumerics(accuracy=0.05, nodes_max=512)
+    ArealNumerics(accuracy=0.05, nodes_per_wave=8, nodes_max=512)
     """
 
     accuracy: Annotated[
@@ -71,6 +77,14 @@ class ArealScene:
         Accuracy and resolution.
     temperature : float, optional
         Of the rubber, degC; ``material`` is the rubber at it. None for a rubber that is known at one temperature only.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> road = rubfric.ArealWaves([0.01, 0.01], [10, 10], [0, 90], [0, 0])
+    >>> scene = rubfric.ArealScene(road, velocity=100, pressure=0.3, material=rubfric.load().material, direction=45)
+    >>> scene.name
+    'areal_v100_p0.3_direction45_aspect0.75'
     """
 
     road: ArealRoad

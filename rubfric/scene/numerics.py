@@ -26,6 +26,15 @@ class Numerics:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> rubfric.Numerics(accuracy=0.002).columns_max
+    32768
+    >>> rubfric.Numerics(accuracy=2)
+    Traceback (most recent call last):
+    rubfric.errors.InvalidInput: numerics.accuracy is 2, but must be at most 0.5
     """
 
     accuracy: Annotated[

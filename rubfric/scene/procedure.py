@@ -36,6 +36,12 @@ class Procedure:
     ------
     InvalidInput
         For any value outside these bounds.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> rubfric.Procedure(start="relaxed", columns=128, wavelengths=10).steps_per_wavelength
+    128
     """
 
     start: Annotated[

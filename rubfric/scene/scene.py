@@ -71,6 +71,16 @@ class Scene:
         Of the rubber, degC; ``material`` is the rubber at it. None for a rubber that is known at one temperature only.
     measured : Measured, optional
         What the measurement leaves open of a rubber that was fitted to one.
+
+    Examples
+    --------
+    >>> import rubfric
+    >>> campaign = rubfric.load()
+    >>> scene = rubfric.Scene(1, campaign.road[0], velocity=100, pressure=5, material=campaign.material)
+    >>> scene == campaign.scene(scale=1, velocity=100, pressure=5)
+    True
+    >>> rubfric.Scene.from_parameters(scene.parameters()) == scene
+    True
     """
 
     scale: Annotated[int | str, ScaleOfScene(high=10**6)]

@@ -27,7 +27,7 @@ class Plan:
     Attributes
     ----------
     jobs : dict
-        Number of jobs by rule, without ``all``.
+        Number of jobs by rule, without ``all`` and the page of all results, which is written after anything else.
     scenes : set of str
         Names of the scenes that would run.
     figures : set of str
@@ -49,7 +49,7 @@ class Plan:
             raise AssertionError(f"there is no table of jobs in:\n{text}")
         messages = re.findall(r"^Job \d+: (.*)$", text, re.MULTILINE)
         return cls(
-            jobs={rule: int(count) for rule, count in counts.items() if rule not in ("all", "total")},
+            jobs={rule: int(count) for rule, count in counts.items() if rule not in ("all", "total", "index_page")},
             scenes={message for message in messages if re.match(r"scale\d+_v", message)},
             figures={message.removeprefix("Drawing ") for message in messages if message.startswith("Drawing ")},
             text=text,

@@ -10,6 +10,8 @@ import pandas as pd
 import xarray as xr
 
 SPEEDS = (0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0)
+# From this speed on every scene carries a warning, mm/s.
+WARNED = 10000.0
 
 
 def make_campaign(
@@ -27,7 +29,11 @@ def make_campaign(
     # 0.2 % at the slowest speed, and more the faster: 1.2 % at the last of six.
     error = friction * 0.002 * np.arange(1.0, len(speeds) + 1.0)[:, None, None]
     fields = {"friction_coefficient": friction, "friction_coefficient_error": error}
-    return xr.Dataset({name: (tuple(axes), field) for name, field in fields.items()}, coords=axes)
+    fields["warnings"] = np.where(speed >= WARNED, 1.0, 0.0)
+    variables: dict[str, object] = {name: (tuple(axes), field) for name, field in fields.items()}
+    # Wavelengths of 0.2 mm, 0.1 mm, and so on.
+    variables["wavenumber"] = ("scale", 2.0 * np.pi / 0.2 * 2.0 ** (np.array(scales) - 1.0))
+    return xr.Dataset(variables, coords=axes)
 
 
 def make_totals(
@@ -61,6 +67,7 @@ def make_totals(
         row |= {"friction_numerical_error": (0.01 if gone or not drawn else 0.005) * total}
         row |= {"friction_coupling_error": 0.39 * total if gone else 0.0}
         row |= {"friction_road_error": 0.005 * total if drawn and not gone else np.nan}
+        row |= {"refused": int(gone), "warnings": int(speed >= WARNED) * (len(campaign["scale"]) + (not gone))}
         row |= {"way": "sum" if gone else "direct", "note": "no solution" if gone else "one road with these phases"}
         rows.append(row)
     return pd.DataFrame(rows)

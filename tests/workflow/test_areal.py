@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from links import broken_links
 from project_copy import Project
 
 from rubfric.results.dataset import read
@@ -56,6 +57,7 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
     page = (made / "tables/friction_total.html").read_text(encoding="utf-8")
     assert "on the areal road runway friction of its profiles in the plane model is" in page
     assert "areal road scanned" not in page
+    assert broken_links(made) == []
     assert "plane_over_surface" not in read_table(made / "tables/areal_scanned.csv", ["note"])
     assert project.plan().jobs == {}
     config.write_text(MINE.replace("hurst: 0.8", "hurst: 0.7"), encoding="utf-8")

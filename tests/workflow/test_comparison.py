@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from links import broken_links
 from project_copy import Project
 
 from rubfric.results.comparison import NAMES, RANKED
@@ -71,6 +72,7 @@ def test_tables_and_figure_are_of_all_pairs(pairs: Project) -> None:
     )
     assert "tread grips more than hard on fine at 300 mm/s" in (tables / "ranking.html").read_text(encoding="utf-8")
     assert (pairs.results / "figures/fig13.pdf").exists()
+    assert broken_links(pairs.results) == []
     assert pairs.plan().jobs == {}
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from urllib.parse import unquote
 
 import numpy as np
 import pandas as pd
 import pytest
+from links import Page, broken_links
 from project_copy import Plan, Project
 
 from rubfric.results.campaign import read
@@ -103,14 +105,26 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
     assert "4 of 4 scenes of the whole road" in "\n".join(lines)
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    made = f": {counts}, 6 tables, 10 figures, 6 other jobs"
+    made = f": {counts}, 6 tables, 10 figures, 7 other jobs"
     assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
-    assert lines[end + 2].startswith("  largest estimated error of friction ")
-    assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 3])
-    assert lines[end + 4].startswith("  largest error of the whole road's friction ")
-    assert any(line.startswith("  open first: results/minimal/claims.html, results/minimal/tables") for line in lines)
+    assert lines[end + 2].startswith("  CPU time behind these results ")
+    assert lines[end + 3].startswith("  largest estimated error of friction ")
+    assert re.match(r"  (none|\d+) of 18 scenes carr", lines[end + 4])
+    assert lines[end + 5].startswith("  largest error of the whole road's friction ")
+    assert lines[-1].startswith("  open first: results/minimal/index.html, results/minimal/claims.html, ")
     assert end < 60
+
+
+def test_pages_lead_to_what_there_is_and_the_first_to_all(template: Project) -> None:
+    assert broken_links(template.results) == []
+    linked = {(template.results / unquote(link)).resolve() for link in Page(template.results / "index.html").links}
+    shown = [
+        *template.results.glob("*.html"),
+        *template.results.glob("tables/[!.]*"),
+        *template.results.glob("figures/*"),
+    ]
+    assert {path.resolve() for path in shown} - linked == {(template.results / "index.html").resolve()}
 
 
 def test_no_half_made_file_is_left(template: Project) -> None:
@@ -164,7 +178,7 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     done = empty_project.snakemake("-n")
     assert done.returncode == 0
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    would = f"{counts}, 6 tables, 10 figures, 6 other jobs"
+    would = f"{counts}, 6 tables, 10 figures, 7 other jobs"
     assert f"  Would be made: {would}; in about " in done.stdout
     assert "a campaign of your own, the grid and aspect_study, transient, rig, claims\n" in done.stdout
     assert len((done.stdout + done.stderr).splitlines()) < 44

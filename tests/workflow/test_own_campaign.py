@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
+from links import broken_links
 from project_copy import Project
 
 MINE = """
@@ -68,7 +69,8 @@ def test_slips_and_all_faults_stop_it_before_any_job(mine: Project) -> None:
 def test_pages_are_those_of_the_grid_and_nothing_of_an_earlier_road_stays(mine: Project) -> None:
     mine.run()
     found = pages(mine.results)
-    assert found.keys() == {"explorer.html", "friction_scale_1.html", "friction_scale_2.html", "friction_total.html"}
+    tables = {"friction_scale_1.html", "friction_scale_2.html", "friction_total.html"}
+    assert found.keys() == {"index.html", "explorer.html", *tables}
     assert all("<title>Friction of rubber tread on road fine" in page for page in found.values())
     payload = json.loads(re.findall(r'<script id="payload".*?>(.*?)</script>', found["explorer.html"], re.DOTALL)[0])
     assert (payload["speeds"], payload["pressures"]) == ([3.0, 30.0], [0.3])
@@ -78,4 +80,5 @@ def test_pages_are_those_of_the_grid_and_nothing_of_an_earlier_road_stays(mine: 
     mine.edit("mine.yaml", lambda text: text.replace(", {amplitude: 0.003, wavelength: 0.04}", ""))
     assert re.search(r"removed, since an earlier config .*friction_scale_2.csv, .*friction_scale_2.html\n", mine.run())
     assert users.exists()
-    assert pages(mine.results).keys() == {"explorer.html", "friction_scale_1.html", "friction_total.html"}
+    assert pages(mine.results).keys() == {"index.html", "explorer.html", *tables} - {"friction_scale_2.html"}
+    assert broken_links(mine.results) == []

@@ -179,10 +179,12 @@ def test_edited_sum_over_scales_reruns_what_shows_it(project: Project) -> None:
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize("name", ["page.py", "explorer.js"])
-def test_edited_page_is_made_again_alone(project: Project, name: str) -> None:
-    project.comment(f"rubfric/pages/explorer/{name}")
-    assert project.plan().jobs == {"explorer": 1}
+@pytest.mark.parametrize("name", ["explorer/page.py", "explorer/explorer.js", "index.html"])
+def test_edited_page_is_made_again_alone_but_for_that_of_all_results(project: Project, name: str) -> None:
+    project.comment(f"rubfric/pages/{name}")
+    plan = project.plan()
+    assert plan.jobs == ({"explorer": 1} if name.startswith("explorer") else {})
+    assert re.search(r"^index_page +1$", plan.text, re.MULTILINE)
 
 
 @pytest.mark.thorough

@@ -107,6 +107,11 @@ if JUDGE:
             },
             criteria=criteria(CAMPAIGN),
             temperature=TEMPERATURE,
+            figures=sorted(
+                os.path.basename(path).removesuffix(".png")
+                for path in [*FIGURES, *MARCH_FIGURE]
+                if path.endswith(".png")
+            ),
             roads={
                 name: reading.whole_parameters() for name, reading in READINGS.items()
             },

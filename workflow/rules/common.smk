@@ -354,6 +354,7 @@ def follow(workflow):
         first=[
             f"{RESULTS}/{path}"
             for path in (
+                "index.html",
                 *(["claims.html"] if CAMPAIGN.claims else []),
                 "tables/friction_total.csv",
                 *(["tables/ranking.html"] if COMPARED else []),

@@ -27,5 +27,7 @@ def main(output: str, rubber: str, entry: dict[str, Any]) -> None:
     """
     chosen = MeasuredRubber.read(f"rubbers.{rubber}", {**entry, "uncertainty": SAMPLES})
     found, material = fit_file(*arguments(rubber, chosen))
-    said = write_fit(found, material, bootstrap(found), Path(output), f"fit from {chosen.measurements}")
+    said = write_fit(
+        found, material, bootstrap(found), Path(output), f"fit from {chosen.measurements}", "../index.html"
+    )
     print("\n".join(said))

@@ -32,6 +32,7 @@ def main(
     roads: dict[str, dict[str, Any]],
     criteria: dict[str, Any],
     about: dict[str, str],
+    figures: list[str],
     temperature: float | None,
 ) -> None:
     """Write the verdicts, the evidence and the page.
@@ -54,6 +55,8 @@ def main(
         The parameters of ``Criteria``.
     about : dict of str to str
         Every reading in words.
+    figures : list of str
+        Names of the campaign's figures.
     temperature : float or None
         At which the claims are judged, degC, where there are any.
     """
@@ -71,7 +74,7 @@ def main(
     )
     write_table(evidence, outputs["evidence"])
     write_table(claims, outputs["claims"])
-    write_page(claims_page(claims, evidence, about), outputs["page"])
+    write_page(claims_page(claims, evidence, about, figures, "explorer.html", "index.html"), outputs["page"])
     print(claims[claims["pressure_MPa"] == EVERY][["claim", "reading", "verdict", "parts"]].to_string(index=False))
 
 

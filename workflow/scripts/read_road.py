@@ -20,4 +20,4 @@ def main(output: str, road: str, entry: dict[str, Any]) -> None:
         Its entry in the config, with ``profile``.
     """
     chosen = MeasuredRoad.read(f"roads.{road}", entry)
-    print("\n".join(write_road(analysed(chosen), road, Path(output), f"read from {chosen.profile}")))
+    print("\n".join(write_road(analysed(chosen), road, Path(output), f"read from {chosen.profile}", "../index.html")))

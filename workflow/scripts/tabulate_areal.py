@@ -1,5 +1,7 @@
 """Write friction on an areal road, beside the plane model and Persson's theory, as a table and a page."""
 
+import os
+
 from rubfric.pages.areal import areal_page
 from rubfric.pages.render import write_page
 from rubfric.results.areal_table import areal_table
@@ -23,4 +25,4 @@ def main(output: str, page: str, road: str, results: dict[str, str], profiles: d
     scenes, beside = ([read(path, digest) for path, digest in each.items()] for each in (results, profiles))
     table = areal_table(scenes, beside)
     write_table(table, output)
-    write_page(areal_page(scenes, table, road), page)
+    write_page(areal_page(scenes, table, road, os.path.basename(output), "../index.html"), page)

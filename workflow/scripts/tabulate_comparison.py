@@ -1,5 +1,7 @@
 """Write the friction of every rubber on every road, and which of two grips more."""
 
+import os
+
 from rubfric.files import mark as leave
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
@@ -7,6 +9,7 @@ from rubfric.results.comparison import comparison_table, headlines, ranking_tabl
 from rubfric.results.pair import read_pair
 from rubfric.results.tables import write_table
 
+_TABLES = ("comparison", "ranking")
 _INTERVALS = (
     "Intervals are of 95 %. That of a difference adds the squares of its parts: numerics, the coupling of the scales, "
     "the data of the rubbers, and the road, which for two rubbers on one road is the scatter of their difference from "
@@ -33,7 +36,9 @@ def main(outputs: dict[str, str], pairs: list[tuple[str, str, str, str, list[str
     write_table(compared, outputs["comparisoncsv"])
     write_table(ranked, outputs["rankingcsv"])
     words = "Friction of the whole road. The error of a total is the sum of its parts. "
-    page = table_page(compared, "Friction of every rubber on every road", words + _INTERVALS, group="rubber")
+    beside = {name: {"csv": os.path.basename(outputs[f"{name}csv"]), "home": "../index.html"} for name in _TABLES}
+    title = "Friction of every rubber on every road"
+    page = table_page(compared, title, words + _INTERVALS, "rubber", **beside["comparison"])
     write_page(page, outputs["comparisonhtml"])
     said = "; ".join(headlines(ranked.to_dict("records")))
     details = ["compared", "on", "first", "second", "friction_first", "friction_second", "verdict"]
@@ -43,6 +48,7 @@ def main(outputs: dict[str, str], pairs: list[tuple[str, str, str, str, list[str
         "Which grips more",
         f"At all speeds and loads: {said}. {_INTERVALS}",
         group="pressure_MPa",
+        **beside["ranking"],
     )
     write_page(page, outputs["rankinghtml"])
     leave(mark)

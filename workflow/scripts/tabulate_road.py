@@ -1,5 +1,6 @@
 """Write friction on a measured road, window by window and cutoff by cutoff, as a table and a page."""
 
+import os
 from typing import Any
 
 import pandas as pd
@@ -79,7 +80,8 @@ def main(
         "under a block of its own height"
     )
     carrying = carriers(table)
-    write_page(slide_page(table, road, f"{lead}. {sentence(carrying) if carrying else ''}".strip()), page)
+    words = f"{lead}. {sentence(carrying) if carrying else ''}".strip()
+    write_page(slide_page(table, road, words, os.path.basename(output), "../index.html"), page)
 
 
 def _outcome(path: str, digest: str) -> Outcome:

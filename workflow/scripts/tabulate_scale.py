@@ -1,5 +1,7 @@
 """Write the table of one scale."""
 
+import os
+
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.campaign import read
@@ -28,7 +30,9 @@ def main(output: str, page: str, campaign: str, collected: str, scale: int, titl
     amplitude, wavenumber = (float(gathered[name].sel(scale=scale)) for name in ("amplitude", "wavenumber"))
     words = (
         f"Every scene on the scale of {amplitude:g} mm amplitude and {wavenumber:g}/mm wavenumber, a row each. "
-        "Friction by three routes, its estimated absolute error, mesh and contact; warnings is the number of warnings "
-        "in the log of the scene."
+        "Friction by three routes, its estimated absolute error, contact and mesh; warnings is the number of warnings "
+        "in the log of the scene. The largest contact pressure is given twice: vertical force per undeformed area, and "
+        "normal force per deformed area."
     )
-    write_page(table_page(table, f"{title}: scale {scale}", words, group="pressure_MPa"), page)
+    beside = {"csv": os.path.basename(output), "home": "../index.html"}
+    write_page(table_page(table, f"{title}: scale {scale}", words, "pressure_MPa", **beside), page)

@@ -1,5 +1,6 @@
 """Write the table of all scales and of the whole road."""
 
+import os
 from typing import Any
 
 from rubfric.pages.render import write_page
@@ -65,5 +66,6 @@ def main(
     for name, path in areal.items():
         off = plane_words(read_table(path, ["note"]))
         words += f" Nor does it cover that roads are no ridges: on the areal road {name} {off}." if off else ""
-    shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS])
-    write_page(table_page(shown, f"{title}: all scales", words, group="pressure_MPa"), page)
+    shown = table.drop(columns=[f"friction_{way}_error" for way in WAYS]).dropna(axis=1, how="all")
+    beside = {"csv": os.path.basename(output), "home": "../index.html"}
+    write_page(table_page(shown, f"{title}: all scales", words, "pressure_MPa", **beside), page)

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from plotly import colors
 
+from rubfric.figures.palette import scale_colour
+
 # Ordered curves run over the same part of the same map as in the figures: its lightest quarter is too pale on white.
 _ORDERED, _LIGHTEST = "Plasma", 0.76
-# Scales are added up, so that they need distinct colours more than ordered ones: the kinds of the figures.
-_SCALES = ("#332288", "#cc6677", "#117733", "#ddaa33", "#88ccee", "#882255", "#44aa99", "#999933", "#aa4499")
 
 
 def palette(pressures: int, scales: int) -> dict[str, Any]:
@@ -30,7 +30,7 @@ def palette(pressures: int, scales: int) -> dict[str, Any]:
     ordered = colors.sample_colorscale(_ORDERED, places, colortype="tuple")
     return {
         "pressures": [_hexadecimal(colour) for colour in ordered],
-        "scales": [_SCALES[place % len(_SCALES)] for place in range(scales)],
+        "scales": [scale_colour(number) for number in range(1, scales + 1)],
         "energy": _stops("Viridis"),
         "friction": _stops("dense"),
     }

@@ -68,6 +68,7 @@ def make_result() -> ResultMaker:
                 "contact_fraction": 0.275,
                 "nominal_compression": compression,
                 "pressed_energy_density": steady,
+                "friction_coefficient": 0.3 - 0.1 * abs(np.log10(speed / 10.0)),
                 "finite_strain": int(finite),
             },
             coords={"depth": depth, "surface_x": surface},

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from rubfric.figures.bands import bands, draw_band, draw_parts, part_handles, runs, upper
+from rubfric.figures.bands import bands, draw_band, draw_parts, explain_parts, runs, upper
 
 PLACES = np.array([1.0, 10.0, 100.0, 1000.0])
 NAN = float("nan")
@@ -38,23 +38,34 @@ def test_nothing_is_drawn_where_the_error_is_unknown() -> None:
 
 
 def test_parts_of_an_error_lie_outside_of_each_other_and_are_paler() -> None:
-    panel, values = Figure().subplots(), np.array([0.2, 0.3, 0.4, 0.5])
-    parts = {"mesh and solver": 0.02 * values, "so few windows": 0.1 * values, "the rubber's data": 0.05 * values}
+    figure, values = Figure(), np.array([0.2, 0.3, 0.4, 0.5])
+    panel = figure.subplots()
+    panel.set_ylim(0.0, 0.6)
+    parts = {"mesh and solver": 0.03 * values, "so few windows": 0.1 * values, "the rubber's data": 0.05 * values}
     draw_parts(panel, PLACES, values, list(parts.values()))
     outer, middle, inner = bands(panel)
-    for band, share in ((outer, 0.17), (middle, 0.12), (inner, 0.02)):
+    for band, share in ((outer, 0.18), (middle, 0.13), (inner, 0.03)):
         heights = band.get_paths()[0].vertices[:, 1]
         assert heights.max() == pytest.approx((1.0 + share) * 0.5)
-    handles = part_handles(values, parts)
+    handles = explain_parts(figure, panel, values, parts)
     assert [one.get_label() for one in handles] == [
-        "error: mesh and solver,\nat most 2\N{NO-BREAK SPACE}%",
+        "Error: mesh and solver,\nat most 3\N{NO-BREAK SPACE}%",
         "+ so few windows,\nat most 10\N{NO-BREAK SPACE}%",
         "+ the rubber's data,\nat most 5\N{NO-BREAK SPACE}%",
     ]
     # Where bands lie on one another they are as dark as the legend says.
     clear = np.cumprod([1.0 - (one.get_alpha() or 0.0) for one in (outer, middle, inner)])
     assert [one.get_alpha() for one in handles][::-1] == pytest.approx(1.0 - clear)
-    assert part_handles(values, {"mesh and solver": 0.02 * values})[0].get_label().startswith("estimated error")
+    (one,) = explain_parts(figure, panel, values, {"mesh and solver": 0.03 * values})
+    assert one.get_label() == "Estimated error,\nat most 3\N{NO-BREAK SPACE}%"
+    assert figure.get_supxlabel() == ""
+    # What is too thin to be seen is in the note, and no entry of the legend.
+    assert len(explain_parts(figure, panel, values, parts | {"mesh and solver": 0.001 * values})) == 2
+    assert explain_parts(figure, panel, values, {"mesh and solver": 0.001 * values}) == []
+    assert figure.get_supxlabel().splitlines() == [
+        "Error from mesh and solver at most 0.1\N{NO-BREAK SPACE}%: too small for its band to be seen.",
+        "Estimated error at most 0.1\N{NO-BREAK SPACE}%: too small for bands to be seen.",
+    ]
 
 
 def test_upper_edges_are_known_where_errors_are_not() -> None:

@@ -73,7 +73,7 @@ def test_ratios_beyond_the_panel_keep_their_share(make_calibration: Maker, tmp_p
 def test_refused_runs_need_not_be_judged(make_calibration: Maker) -> None:
     table = make_calibration(sets=("inside",)).astype({"covered": object, "kinematics": object})
     table.loc[1, ["error", "estimate", "covered", "kinematics"]] = np.nan
-    assert told(calibration.draw(table))[0] == "inside the paper's grid: 2 of 3 covered (66 %), median ratio 4"
+    assert told(calibration.draw(table))[0] == "Inside the paper's grid: 2 of 3 covered (66 %), median ratio 4"
 
 
 @pytest.mark.thorough

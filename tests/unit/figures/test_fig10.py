@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig7, fig10, style
 from rubfric.figures.bands import bands
+from rubfric.figures.panels import sentence
 from rubfric.figures.totals import WAYS
 
 Maker = Callable[..., xr.Dataset]
@@ -34,7 +35,7 @@ def test_four_ways_at_a_light_and_a_heavy_load(make_campaign: Maker, make_totals
         summed = campaign["friction_coefficient"].sel(aspect=0.75, pressure=pressure).sum("scale").values
         found = curves(panel)
         for way, share in SHARES.items():
-            np.testing.assert_allclose(found[WAYS[way]], share * summed, rtol=1e-12)
+            np.testing.assert_allclose(found[sentence(WAYS[way])], share * summed, rtol=1e-12)
         assert len(bands(panel)) == 1
         assert panel.get_ylim()[1] >= summed.max()
 
@@ -44,10 +45,10 @@ def test_legend_says_which_road_and_how_good(
 ) -> None:
     campaign = make_campaign()
     said = words(fig10.draw(make_totals(campaign), [0.5, 5.0]))
-    assert "all scales at once:\none road, these phases" in said
-    assert "estimated error,\nat most 1.5\N{NO-BREAK SPACE}%" in said
-    assert said.count("sum of the scales") == 1
-    assert "all scales at once:\nmean of random phases" in words(fig10.draw(make_totals(campaign, drawn=True), [5.0]))
+    assert "All scales at once:\none road, these phases" in said
+    assert "Estimated error at most 1.5\N{NO-BREAK SPACE}%: too small for bands to be seen." in said
+    assert said.count("Sum of the scales") == 1
+    assert "All scales at once:\nmean of random phases" in words(fig10.draw(make_totals(campaign, drawn=True), [5.0]))
 
 
 def test_bands_of_a_measured_road_and_rubber_are_apart(
@@ -63,10 +64,10 @@ def test_bands_of_a_measured_road_and_rubber_are_apart(
     drawn = [fig10.draw(table, [0.5, 5.0]), fig10.draw(table, [5.0]), fig7.draw(make_campaign(), table, 0.75, 5.0)]
     for figure in drawn:
         said = words(figure)
-        assert any("the profile itself" in one and one.endswith("mean of 3 windows") for one in said)
-        assert "sum of its sines" in said
-        assert "+ so few windows,\nat most 0.72\N{NO-BREAK SPACE}%" in said
-        assert "+ the rubber's data,\nat most 20\N{NO-BREAK SPACE}%" in said
+        assert any("the profile itself" in one.lower() and one.endswith("mean of 3 windows") for one in said)
+        assert "Sum of its sines" in said
+        assert "Error: the rubber's data,\nat most 20\N{NO-BREAK SPACE}%" in said
+        assert "Error from so few windows at most 0.72\N{NO-BREAK SPACE}%" in figure.get_supxlabel().replace("\n", " ")
         assert overlaps(figure) == []
     assert {len(bands(panel)) for panel in drawn[0].axes} == {3}
 
@@ -84,7 +85,7 @@ def test_refused_speeds_are_crossed(
     (crosses,) = (line for line in heavy.get_lines() if line.get_gid() == "missing")
     assert list(crosses.get_xdata()) == [10.0, 1000.0]
     assert not [line for line in light.get_lines() if line.get_gid() == "missing"]
-    assert "whole road not solved" in words(figure)
+    assert "Whole road not solved" in words(figure)
     style.save(figure, tmp_path / "fig10.png", tmp_path / "fig10.pdf")
     assert overlaps(figure) == []
 
@@ -96,8 +97,8 @@ def test_without_direct_totals_the_estimates_are_drawn(
     table = make_totals(campaign)
     table["friction_direct"], table["way"] = np.nan, "sum"
     figure = fig10.draw(table, [5.0, 5.0])
-    assert set(curves(figure.axes[0])) == {WAYS[way] for way in ("sum", "corrected", "cascade", "persson")}
-    assert not any("not solved" in one or "error" in one for one in words(figure))
+    assert set(curves(figure.axes[0])) == {sentence(WAYS[way]) for way in ("sum", "corrected", "cascade", "persson")}
+    assert not any("not solved" in one or "rror" in one for one in words(figure))
     assert len(figure.axes) == 1
 
 

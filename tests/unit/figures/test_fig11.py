@@ -37,7 +37,7 @@ def test_every_scene_has_a_strip_and_a_spot_to_scale(make_whole: Maker) -> None:
     strips, spots = panels(figure)
     assert len(strips) == len(spots) == 6
     assert [panel.get_title() for panel in strips[:3]] == ["1 mm/s", "100 mm/s", "1000 mm/s"]
-    assert figure.axes[-1].get_ylabel() == "strain-energy density (MPa)"
+    assert figure.axes[-1].get_ylabel() == "Strain-energy density (MPa)"
     road = profile(results[0])
     for strip, spot in zip(strips, spots, strict=True):
         assert strip.get_xlim() == (0.0, road.period)
@@ -128,7 +128,7 @@ def test_refused_scene_says_so_on_its_road(
     figure = fig11.draw([make_whole(0.2, kinematics="small"), make_whole(5.0, refusal=reason)])
     style.save(figure, tmp_path / "fig11.png")
     said = words(figure)
-    assert "(b) refused" in said
+    assert "(b) Refused" in said
     (shown,) = (text for text in said if "not converged" in text)
     assert shown.startswith("not converged after 34 steps")
     assert overlaps(figure) == []

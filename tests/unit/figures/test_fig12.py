@@ -48,7 +48,7 @@ def test_points_shifted_by_a_t_are_one_curve(
         np.testing.assert_allclose(point.get_xdata(), shift * np.asarray(line.get_xdata()), rtol=1e-12)
         np.testing.assert_array_equal(point.get_ydata(), line.get_ydata())
         np.testing.assert_allclose(point.get_ydata(), 0.1 + 0.01 * np.log10(np.asarray(point.get_xdata())), rtol=1e-12)
-    assert [panel.get_title(loc="left") for panel in figure.axes] == ["(a) at each temperature", "(b) shifted to 20 °C"]
+    assert [panel.get_title(loc="left") for panel in figure.axes] == ["(a) At each temperature", "(b) Shifted to 20 °C"]
     said = words(figure)
     assert [one for one in said if one in ("0", "20", "60")] == ["0", "20", "60"]
     assert not any("b_T" in one for one in said)
@@ -71,7 +71,7 @@ def test_other_figures_name_their_temperature(
 ) -> None:
     campaign = make_campaign()
     plain, warm = (fig7.draw(campaign, make_totals(campaign), 0.75, 0.5) for _ in range(2))
-    assert name_temperature(plain, None).get_supxlabel() == ""
-    assert name_temperature(warm, -5.0).get_supxlabel() == "Rubber at \N{MINUS SIGN}5 °C."
+    note = name_temperature(plain, None).get_supxlabel()
+    assert name_temperature(warm, -5.0).get_supxlabel() == f"{note}\nRubber at \N{MINUS SIGN}5 °C."
     style.save(warm, tmp_path / "fig7.png")
     assert overlaps(warm) == []

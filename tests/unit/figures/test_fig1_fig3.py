@@ -59,7 +59,7 @@ def test_every_line_has_its_band(
         assert len(bands(panel)) == count
         assert all(np.isclose(corners[:, 1], value, rtol=1e-12).any() for value in upper.flat)
         assert panel.get_ylim()[1] > upper.max()
-    assert "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%" in words(figure)
+    assert "Estimated error at most 1.2\N{NO-BREAK SPACE}%: too small for bands to be seen." in words(figure)
 
 
 @pytest.mark.parametrize("module", [fig1, fig3])
@@ -95,7 +95,7 @@ def test_unknown_and_huge_errors_are_drawn(
         velocity=0.1
     )
     figure = module.draw(campaign, [1], [5.0], ASPECTS)
-    assert "estimated error,\nat most 200\N{NO-BREAK SPACE}%,\nunknown at 6 of 18 points" in words(figure)
+    assert "Estimated error,\nat most 200\N{NO-BREAK SPACE}%,\nunknown at 6 of 18 points" in words(figure)
     assert np.isfinite(figure.axes[0].get_ylim()).all()
     style.save(figure, tmp_path / "unknown.png")
 

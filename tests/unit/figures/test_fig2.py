@@ -70,6 +70,16 @@ def test_axes_hold_the_data_on_a_logarithmic_ordinate(results: list[xr.Dataset])
         assert panel.get_xlim() == (0.0, pytest.approx(0.15))
 
 
+def test_of_many_speeds_the_ends_and_the_best_grip_are_drawn(make_result: Maker) -> None:
+    speeds = (0.1, 1.0, 10.0, 100.0, 1000.0)
+    figure = fig2.draw([make_result(1.0, speed) for speed in speeds])
+    assert len(lines(figure.axes[0], "mean")) == 3
+    assert [text.get_text() for text in figure.legends[0].get_texts()][:3] == [
+        f"Mean at {speed} mm/s" for speed in ("0.1", "10", "1000")
+    ]
+    assert "but not 1, 100 mm/s" in figure.get_supxlabel().replace("\n", " ")
+
+
 def test_result_without_a_profile_is_refused(make_result: Maker) -> None:
     with pytest.raises(InvalidInput, match=r"^the result made up lacks strain_energy_density_profile$"):
         fig2.draw([make_result().drop_vars("strain_energy_density_profile")])

@@ -26,7 +26,7 @@ def test_rows_of_pressures_and_columns_of_speeds(results: list[xr.Dataset]) -> N
     *panels, bar = figure.axes
     assert len(panels) == 6
     assert [panel.get_title() for panel in panels[:3]] == ["1 mm/s", "100 mm/s", "10\N{NO-BREAK SPACE}000 mm/s"]
-    assert bar.get_ylabel() == "strain-energy density (MPa)"
+    assert bar.get_ylabel() == "Strain-energy density (MPa)"
     rows = sorted({round(panel.get_position().y0, 6) for panel in panels})
     assert len(rows) == 2
 
@@ -118,6 +118,18 @@ def test_small_strain_among_finite_keeps_its_height_and_has_no_net(
     assert (len(net(small).get_segments()) > 0, len(net(finite).get_segments()) > 0) == (False, True)
     said = " ".join(words(figure)).replace("\n", " ").replace("\N{NO-BREAK SPACE}", " ")
     assert "In small strain (a) only vertical displacements" in said
+
+
+@pytest.mark.parametrize(
+    ("warned", "said"), [((), ""), ((2,), "Panel c carries a warning."), ((0, 1, 2), "Panels a to c carry a warning.")]
+)
+def test_scenes_that_carry_a_warning_are_named(make_result: Maker, warned: tuple[int, ...], said: str) -> None:
+    results = [make_result(1.0, speed) for speed in (1.0, 10.0, 100.0)]
+    for place in warned:
+        results[place].attrs["warnings"] = "It was fast."
+    note = fig4.draw(results).texts[-1].get_text().replace("\n", " ")
+    assert ("warning" in note) == bool(warned)
+    assert said in note
 
 
 @pytest.mark.parametrize("kinds", [("small", "small"), ("finite", "finite"), ("small", "finite"), ("finite",)])

@@ -26,15 +26,20 @@ def lines(panel: Axes) -> list[Line2D]:
     return [line for line in panel.get_lines() if line.get_gid() is None]
 
 
-def test_panels_run_from_the_finest_scale_to_the_coarsest(make_campaign: Maker) -> None:
+def test_panels_run_from_the_coarsest_scale_to_the_finest(make_campaign: Maker) -> None:
     figure = fig6.draw(make_campaign(), 0.75)
     titles = [panel.get_title(loc="left") for panel in figure.axes]
-    assert titles == ["(a) micro-scale (scale 4)", "(b) scale 3", "(c) scale 2", "(d) scale 1"]
+    assert titles == [
+        "(a) Scale 1, 0.2 mm",
+        "(b) Scale 2, 0.1 mm",
+        "(c) Scale 3, 0.05 mm",
+        "(d) Scale 4, 0.025 mm (micro-scale)",
+    ]
 
 
 def test_lines_are_the_campaign_s(make_campaign: Maker, series: Callable[..., Any]) -> None:
     campaign = make_campaign()
-    for panel, scale in zip(fig6.draw(campaign, 0.75).axes, (4, 3, 2, 1), strict=True):
+    for panel, scale in zip(fig6.draw(campaign, 0.75).axes, (1, 2, 3, 4), strict=True):
         lines = series(panel)
         assert len(lines) == 3
         for (_, values), pressure in zip(lines, (0.5, 1.0, 5.0), strict=True):
@@ -45,7 +50,7 @@ def test_lines_are_the_campaign_s(make_campaign: Maker, series: Callable[..., An
 def test_peak_of_every_line_is_marked(make_campaign: Maker) -> None:
     campaign = make_campaign()
     figure = fig6.draw(campaign, 0.75)
-    for panel, scale, speed in zip(figure.axes, (4, 3, 2, 1), (1.0, 10.0, 100.0, 1000.0), strict=True):
+    for panel, scale, speed in zip(figure.axes, (1, 2, 3, 4), (1000.0, 100.0, 10.0, 1.0), strict=True):
         marks = [(ring.get_xdata()[0], ring.get_ydata()[0]) for ring in rings(panel)]
         highest = campaign["friction_coefficient"].sel(scale=scale, aspect=0.75).max("velocity").values
         assert marks == [(speed, value) for value in highest]
@@ -60,19 +65,36 @@ def test_bands_hold_what_the_data_of_a_measured_rubber_leave(
     campaign["friction_beyond_window"] = (campaign["friction_coefficient"] * 0.0).where(campaign["velocity"] < 1e3, 0.5)
     figure = fig6.draw(campaign, 0.75)
     assert any("the rubber's data alone\nat most 10" in text for text in words(figure))
-    assert not any("rubber" in text or "beyond" in text for text in words(plain))
-    assert sum("beyond the measured" in text for text in words(figure)) == 1
+    assert not any("rubber" in text or "Beyond" in text for text in words(plain))
+    assert sum("Beyond the measured" in text for text in words(figure)) == 1
     crosses = [line for line in figure.axes[0].get_lines() if line.get_gid() == "beyond"]
-    assert [list(cross.get_xdata()) for cross in crosses] == [[1e3, 1e4]] * 3
+    assert [list(cross.get_xdata()) for cross in crosses] == [[1e3] * 3 + [1e4] * 3]
     heights = [bands(one.axes[0])[0].get_paths()[0].get_extents().height for one in (plain, figure)]
     assert heights[0] < heights[1]
+
+
+def test_points_that_carry_a_warning_are_marked_but_once_in_a_crowd(
+    make_campaign: Maker, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    campaign["warnings"] = xr.zeros_like(campaign["friction_coefficient"])
+    assert "Carries a warning" not in words(fig6.draw(campaign, 0.75))
+    campaign["warnings"].loc[{"scale": 2, "velocity": 100.0}] = 1.0
+    # Friction at the three pressures is 1.05, 1.1 and 1.5 times as high as without pressure.
+    figure = fig6.draw(campaign, 0.75)
+    friction = campaign["friction_coefficient"].sel(scale=2, velocity=100.0, aspect=0.75)
+    marks = [[one for one in panel.get_lines() if one.get_gid() == "warned"] for panel in figure.axes]
+    assert [len(found) for found in marks] == [0, 1, 0, 0]
+    assert list(marks[1][0].get_xdata()) == [100.0, 100.0]
+    assert sorted(marks[1][0].get_ydata()) == [float(friction.sel(pressure=one)) for one in (1.0, 5.0)]
+    assert words(figure).count("Carries a warning") == 1
 
 
 def test_every_line_has_its_band(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
     campaign = make_campaign()
     campaign["friction_coefficient_error"].loc[{"scale": 2, "pressure": 1.0, "velocity": 100.0, "aspect": 0.75}] = 0.5
     figure = fig6.draw(campaign, 0.75)
-    for panel, scale in zip(figure.axes, (4, 3, 2, 1), strict=True):
+    for panel, scale in zip(figure.axes, (1, 2, 3, 4), strict=True):
         drawn = bands(panel)
         colours = [to_rgb(line.get_color()) for line in lines(panel)]
         np.testing.assert_allclose([band.get_facecolor()[0][:3] for band in drawn], colours)
@@ -85,7 +107,7 @@ def test_every_line_has_its_band(make_campaign: Maker, words: Callable[..., list
                 assert all(np.isclose(corners, point).all(axis=1).any() for point in wanted)
     # The largest error is told, and fits into the panel.
     friction = campaign["friction_coefficient"].sel(scale=2, pressure=1.0, velocity=100.0, aspect=0.75).item()
-    assert f"estimated error,\nat most {style.percent(0.5 / friction)}" in words(figure)
+    assert f"Estimated error,\nat most {style.percent(0.5 / friction)}" in words(figure)
     assert figure.axes[0].get_ylim()[1] > friction + 0.5
 
 
@@ -106,7 +128,7 @@ def test_campaign_without_errors_is_refused(make_campaign: Maker) -> None:
 
 def test_figure_says_what_it_shows(make_campaign: Maker, words: Callable[..., list[str]]) -> None:
     said = words(fig6.draw(make_campaign(), 0.75))
-    for text in ("sliding speed (mm/s)", "friction coefficient (-)", "nominal pressure\n(MPa)", "0.5", "sampled peak"):
+    for text in ("Sliding speed (mm/s)", "Friction coefficient", "Nominal pressure\n(MPa)", "0.5", "Sampled peak"):
         assert text in said
 
 
@@ -118,9 +140,9 @@ def test_pressures_of_other_blocks_are_left_out(make_campaign: Maker) -> None:
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [
         "0.5",
         "5",
-        "sampled peak",
-        "estimated error,\nat most 1.2\N{NO-BREAK SPACE}%",
+        "Sampled peak",
     ]
+    assert figure.get_supxlabel() == "Estimated error at most 1.2\N{NO-BREAK SPACE}%: too small for bands to be seen."
 
 
 def test_what_is_absent_is_refused(make_campaign: Maker) -> None:
@@ -160,7 +182,7 @@ def test_curves_with_added_speeds_are_drawn_as_they_are_known_with_their_peaks(
         0.75,
     )
     plain, found = fig6.draw(campaign, 0.75), fig6.draw(campaign, 0.75, curves=curves)
-    for coarse, fine, scale in zip(plain.axes, found.axes, (4, 3, 2, 1), strict=True):
+    for coarse, fine, scale in zip(plain.axes, found.axes, (1, 2, 3, 4), strict=True):
         before, after = coarse.get_lines()[0], fine.get_lines()[0]
         speeds, marked = np.asarray(after.get_xdata()), after.get_markevery()
         assert speeds[marked] == pytest.approx(before.get_xdata())
@@ -168,5 +190,5 @@ def test_curves_with_added_speeds_are_drawn_as_they_are_known_with_their_peaks(
         peaks = [float(bars.lines[0].get_xdata()[0]) for bars in fine.containers]
         assert peaks == pytest.approx([10.0 ** (4 - scale)] * 3, rel=0.05)
         assert not rings(fine)
-    assert "peak, with its error" in words(found)
-    assert "sampled peak" not in words(found)
+    assert "Peak, with its error" in words(found)
+    assert "Sampled peak" not in words(found)

@@ -11,11 +11,13 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig7, style
 from rubfric.figures.bands import bands
+from rubfric.figures.palette import scale_colour
 from rubfric.figures.peaks import rings
 
 Maker = Callable[..., xr.Dataset]
@@ -61,7 +63,7 @@ def test_shares_add_up_to_the_sum(make_campaign: Maker, draw: Drawer) -> None:
     friction = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0)
     np.testing.assert_allclose(total, friction.sum("scale").values, rtol=1e-12)
     shares = areas(panel)
-    assert list(shares) == ["scale 4", "scale 3", "scale 2", "scale 1"]
+    assert list(shares) == ["scale 1", "scale 2", "scale 3", "scale 4"]
     for place, speed in enumerate(speeds):
         stacked = {name: thickness(corners, speed) for name, (corners,) in shares.items()}
         for scale in (1, 2, 3, 4):
@@ -97,14 +99,17 @@ def test_total_is_all_scales_at_once_with_its_band_and_peak(
     assert ring.get_xdata()[0] == speeds[np.argmax(total)]
     assert ring.get_ydata()[0] == pytest.approx(total.max())
     said = words(figure)
-    assert "total: all scales at once,\none road, these phases" in said
-    assert "estimated error,\nat most 1.5\N{NO-BREAK SPACE}%" in said
+    assert [one for one in said if one.startswith("Scale")] == [
+        f"Scale {scale}, {wavelength} mm" for scale, wavelength in enumerate(("0.2", "0.1", "0.05", "0.025"), 1)
+    ]
+    assert "Total: all scales at once,\none road, these phases" in said
+    assert "Estimated error at most 1.5\N{NO-BREAK SPACE}%: too small for bands to be seen." in said
 
 
 def test_mean_over_random_phases_is_called_so(
     make_campaign: Maker, draw: Drawer, words: Callable[..., list[str]]
 ) -> None:
-    assert "total: all scales at once,\nmean of random phases" in words(draw(make_campaign(), drawn=True))
+    assert "Total: all scales at once,\nmean of random phases" in words(draw(make_campaign(), drawn=True))
 
 
 def test_refused_points_are_open_with_their_whole_error(
@@ -126,7 +131,7 @@ def test_refused_points_are_open_with_their_whole_error(
     assert points.get_ydata() == pytest.approx([summed])
     (bar,) = (one for one in panel.collections if isinstance(one, LineCollection) and one.get_gid() is None)
     assert bar.get_segments()[0][:, 1] == pytest.approx([0.6 * summed, 1.4 * summed])
-    assert "not solved: sum of the scales,\nwith all of its error" in words(figure)
+    assert "Not solved: sum of the\nscales, with all of its\nerror" in words(figure)
     assert panel.get_ylim()[1] > 1.4 * summed
     assert overlaps(figure) == []
 
@@ -137,8 +142,8 @@ def test_total_that_is_the_sum_says_so(
     campaign = make_campaign()
     table = make_totals(campaign, refused=list(product(campaign["pressure"].values, campaign["velocity"].values)))
     said = words(fig7.draw(campaign, table, 0.75, 5.0))
-    assert "total: sum of the scales,\none road, these phases" in said
-    assert not any("not solved" in one for one in said)
+    assert "Total: sum of the scales,\none road, these phases" in said
+    assert not any("Not solved" in one for one in said)
 
 
 def test_table_that_lacks_something_is_refused(make_campaign: Maker, make_totals: TableMaker) -> None:
@@ -148,6 +153,29 @@ def test_table_that_lacks_something_is_refused(make_campaign: Maker, make_totals
         fig7.draw(campaign, table.drop(columns="friction_direct"), 0.75, 5.0)
     with pytest.raises(InvalidInput, match=r"^the table of totals has no pressure 5 MPa, but 0\.5, 1 MPa$"):
         fig7.draw(campaign, table[table["pressure_MPa"] < 5.0], 0.75, 5.0)
+
+
+def test_totals_that_carry_a_warning_are_marked(
+    make_campaign: Maker, make_totals: TableMaker, words: Callable[..., list[str]]
+) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign)
+    table["warnings"] = np.where(table["velocity_mm_per_s"] == 100.0, 2, 0)
+    figure = fig7.draw(campaign, table, 0.75, 5.0)
+    speeds, totals = line(figure.axes[0], "warned")
+    assert list(speeds) == [100.0]
+    total = table.loc[(table["velocity_mm_per_s"] == 100.0) & (table["pressure_MPa"] == 5.0), "friction_total"]
+    assert list(totals) == list(total)
+    assert words(figure).count("Carries a warning") == 1
+    assert "Carries a warning" not in words(fig7.draw(campaign, table.assign(warnings=0), 0.75, 5.0))
+
+
+def test_scales_have_the_colours_of_the_explorer(make_campaign: Maker, draw: Drawer) -> None:
+    # Of a campaign without scale 2 the others keep theirs.
+    (panel,) = draw(make_campaign(scales=(1, 3))).axes
+    found = {str(area.get_gid()): area.get_facecolor()[0][:3] for area in panel.collections if area.get_gid()}
+    for scale in (1, 3):
+        np.testing.assert_allclose(found[f"scale {scale}"], 0.45 * np.array(to_rgb(scale_colour(scale))) + 0.55)
 
 
 def test_gap_is_bridged_by_no_area(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
@@ -162,7 +190,7 @@ def test_gap_is_bridged_by_no_area(make_campaign: Maker, draw: Drawer, tmp_path:
 def test_speed_without_neighbours_is_a_bar(make_campaign: Maker, draw: Drawer, tmp_path: Path) -> None:
     campaign = make_campaign(speeds=(10.0,))
     figure = draw(campaign)
-    for scale, (corners,) in zip((4, 3, 2, 1), areas(figure.axes[0]).values(), strict=True):
+    for scale, (corners,) in zip((1, 2, 3, 4), areas(figure.axes[0]).values(), strict=True):
         assert corners[:, 0].min() < 10.0 < corners[:, 0].max()
         share = campaign["friction_coefficient"].sel(aspect=0.75, pressure=5.0, scale=scale).item()
         assert thickness(corners, corners[0, 0]) == pytest.approx(share)

@@ -14,7 +14,7 @@ def test_panels_fill_rows_of_at_most_three(count: int, rows: int, columns: int) 
     assert len(axes) == len(figure.axes) == count
     width = style.COLUMN if count == 1 else style.DOUBLE_COLUMN
     assert tuple(figure.get_size_inches()) == pytest.approx((width, 2.0 * rows))
-    panels.label(axes, "speed (mm/s)", "friction (-)")
+    panels.label(axes, "Speed (mm/s)", "Friction coefficient")
     assert [bool(panel.get_ylabel()) for panel in axes] == [place % columns == 0 for place in range(count)]
     # The lowest of each column.
     assert [bool(panel.get_xlabel()) for panel in axes] == [place + columns >= count for place in range(count)]

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
-from rubfric.figures.scaling import scale_decades, scale_friction, scale_speeds, tick_at
+from rubfric.figures.scaling import plain, scale_decades, scale_friction, scale_speeds, tick_at
 
 
 @pytest.fixture
@@ -36,6 +36,17 @@ def test_speeds_are_ticked_at_decades(axes: Axes) -> None:
 def test_few_speeds_are_ticked_themselves(axes: Axes, speeds: list[float]) -> None:
     scale_speeds(axes, np.array(speeds))
     assert ticks(axes, "x") == [f"{speed:g}" for speed in speeds]
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "said"),
+    [
+        *((-0.1, 12, "\N{MINUS SIGN}0.1"), (0.0785398, 3, "0.0785"), (1e-5, 12, "$10^{-5}$")),
+        *((-2.5e-7, 12, "$\N{MINUS SIGN}2.5\\times 10^{-7}$"), (10000.0, 3, "10\N{NO-BREAK SPACE}000")),
+    ],
+)
+def test_numbers_have_minus_signs_and_powers_of_ten(value: float, digits: int, said: str) -> None:
+    assert plain(value, digits) == said
 
 
 def test_speed_zero_is_refused(axes: Axes) -> None:

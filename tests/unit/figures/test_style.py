@@ -17,7 +17,7 @@ def figure() -> Figure:
         drawn = Figure(figsize=(2.0, 1.5), layout="constrained")
         axes = drawn.subplots()
         axes.plot([0.0, 1.0], [1.0, 2.0], **style.lines(1)[0])
-        axes.set_xlabel("friction coefficient (-)")
+        axes.set_xlabel("Friction coefficient")
     return drawn
 
 

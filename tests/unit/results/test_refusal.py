@@ -65,7 +65,7 @@ def test_collection_of_refusals_alone_has_its_axes(paths: list[Path], tmp_path: 
 
 def drawn(friction: float, error: float) -> xr.Dataset:
     axes = ("scale", "velocity", "pressure", "aspect")
-    fields = {"friction_coefficient": friction, "friction_coefficient_error": error}
+    fields = {"friction_coefficient": friction, "friction_coefficient_error": error, "warnings": 10.0 * friction}
     values = {name: (axes, np.full((1, 1, 1, 1), value)) for name, value in fields.items()}
     return xr.Dataset(values, coords={"scale": [0], "velocity": [1.0], "pressure": [5.0], "aspect": [0.75]})
 
@@ -76,6 +76,7 @@ def test_mean_over_draws_has_their_standard_error() -> None:
     assert mean["friction_coefficient_error"].item() == pytest.approx(0.02)
     assert mean["friction_road_error"].item() == pytest.approx(0.1 / 3**0.5)
     assert mean["draws"].item() == 3
+    assert mean["warnings"].item() == pytest.approx(2 + 3 + 4)
 
 
 def test_one_draw_does_not_know_its_scatter() -> None:

@@ -67,10 +67,23 @@ def test_columns_and_rows_are_in_order(campaign: xr.Dataset) -> None:
         *("friction_numerical_error", "friction_coupling_error", "friction_road_error"),
         *(f"friction_{way}" for way in WAYS),
         *(f"friction_{way}_error" for way in WAYS),
-        *("friction_scale_1", "friction_scale_2", "nominal_compression", "refused", "note"),
+        *("friction_scale_1", "friction_scale_2", "nominal_compression", "refused", "warnings", "note"),
     ]
     points = list(table[["pressure_MPa", "velocity_mm_per_s"]].itertuples(index=False, name=None))
     assert points == list(product(PRESSURES, VELOCITIES))
+
+
+def test_warnings_are_those_of_all_scenes_at_the_point(campaign: xr.Dataset) -> None:
+    def warned(found: xr.Dataset, **at: float) -> xr.Dataset:
+        found = found.assign(warnings=xr.zeros_like(found["friction_coefficient"]))
+        found["warnings"].loc[{"velocity": 100.0, **at}] = 2.0
+        return found
+
+    whole = warned(gathered((0,), 0.3))
+    whole["warnings"].loc[{"velocity": 1.0}] = np.nan  # refused
+    table = total_table(warned(campaign, scale=2), whole, road("direct"))
+    assert table["warnings"].tolist() == [0, 4, 0, 4]
+    assert total_table(warned(campaign, scale=2), None, road("sum"))["warnings"].tolist() == [0, 2, 0, 2]
 
 
 def test_direct_total_has_no_coupling_error(campaign: xr.Dataset) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from synthetic_campaign import make_campaign, make_totals
 
 from rubfric.runner.findings import findings, highest, told_apart, verdicts
 
@@ -29,8 +30,24 @@ def test_largest_error_is_relative_and_has_its_place(tables: list[Path]) -> None
     lines = findings(tables)
     assert lines == [
         "largest estimated error of friction 1.5 %, on scale 12 at 100.0 mm/s, 5.0 MPa, height/width 0.75",
-        "1 of 4 scenes carry a warning: column warnings of the tables, and the scenes' logs",
+        "1 of 4 scenes carry a warning: scale 12 at 1 mm/s, 0.5 MPa; the words are in the scenes' logs",
     ]
+
+
+def test_scenes_with_a_warning_are_named_by_scale_speed_and_pressure(tables: list[Path], tmp_path: Path) -> None:
+    one = pd.read_csv(tables[1])
+    many = pd.concat([one.assign(pressure_MPa=load, aspect=1.5) for load in (0.2, 1.0, 0.2)])
+    many.to_csv(tables[1], index=False)
+    assert "scale 12 at 1 mm/s, 0.2 and 1 MPa; the words" in findings(tables)[1]
+    fast = [many.assign(velocity_mm_per_s=speed, pressure_MPa=load) for speed in range(1, 8) for load in (0.5, 1, 5)]
+    pd.concat(fast).assign(warnings=1).to_csv(tables[1], index=False)
+    line = findings(tables)[1]
+    assert "scale 12 at 5 mm/s, 3 pressures from 0.5 to 5 MPa; and at 2 more speeds; the words" in line
+    total = tmp_path / "friction_total.csv"
+    make_totals(make_campaign()).to_csv(total, index=False)
+    assert findings([total])[-1] == (
+        "friction of the whole road at 10000 mm/s, 3 pressures from 0.5 to 5 MPa rests on scenes that carry a warning"
+    )
 
 
 def test_no_warning_is_said_too(tables: list[Path]) -> None:

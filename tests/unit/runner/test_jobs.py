@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -117,7 +118,9 @@ def test_idle_worker_that_died_is_replaced(place: Workplace) -> None:
 
 def test_log_holds_what_the_job_printed(place: Workplace, capfd: pytest.CaptureFixture[str]) -> None:
     place.run("one", number=7)
-    assert sorted(place.log("one").read_text().splitlines()) == ["number 7", "on stderr"]
+    *printed, cost = place.log("one").read_text().splitlines()
+    assert sorted(printed) == ["number 7", "on stderr"]
+    assert re.fullmatch(r"took \d+\.\d+ s, \d+\.\d+ s of CPU time(, \d+ MB of memory at most)?", cost)
     assert capfd.readouterr() == ("", "")
 
 

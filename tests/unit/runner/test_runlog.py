@@ -271,7 +271,7 @@ def test_results_that_are_named_are_those_of_the_run(
         Path(path).touch()
     for stats, output, said in (
         ({"scene": 1, "scenes": 1}, fields, [f"  fields are in {tmp_path}/scenes"]),
-        ({"scale_table": 1}, new, [f"  of {new}", f"  open first: {new}", f"  tables are in {tmp_path}/tables"]),
+        ({"scale_table": 1}, new, [f"  of {new}", f"  tables are in {tmp_path}/tables", f"  open first: {new}"]),
     ):
         run = Run(tmp_path, snakemake, targets=["all", "scenes"], tables=[old, new], first=[old, new])
         snakemake.send("RUN_INFO", "Job stats", stats=stats)

@@ -75,7 +75,9 @@ def test_every_asset_is_packaged() -> None:
     patterns = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["rubfric"]
     folder = root / "rubfric"
     used = {
-        path for name in ("table", "claims", "rubber", "road", "slide", "areal", "explorer") for path in assets(name)
+        path
+        for name in ("table", "claims", "index", "rubber", "road", "slide", "areal", "explorer")
+        for path in assets(name)
     }
     for path in used:
         assert any(fnmatch(path.relative_to(folder).as_posix(), pattern) for pattern in patterns)

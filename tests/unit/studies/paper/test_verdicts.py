@@ -116,9 +116,9 @@ def test_page_tells_every_claim_verdict_and_reading() -> None:
     claims = claims_table(EVIDENCE, 5.0, NOTES)
     page = claims_page(claims, evidence_table(EVIDENCE), ABOUT)
     for name, claim in CLAIMS.items():
-        assert f"<b>{name}</b> {claim.says}" in page
+        assert f"<b>{name}</b></a> {claim.says}" in page
     assert "Rubber &lt;a&amp;b&gt;." in page
-    assert "−30 ± 1 % (has to be above 0 %), scale 2, 0.5 MPa" in page
+    assert "−30.0 ± 1.0 % (has to be above 0 %), scale 2, 0.5 MPa" in page
     assert "2 of 9 scenes were refused." in page
     assert "not estimated" in page
     assert "src=" not in page
