@@ -17,7 +17,6 @@ from rubfric.results.temperature import COLUMN
 CURVE, POINT, WAY = "curve", "point", "way"
 GRID, ADDED = "grid", "added"
 FRICTION, ERROR = "friction_coefficient", "friction_coefficient_error"
-WHOLE = "whole road"
 WORDS = ("rubber", "road", CURVE, POINT, WAY, "kind", "note")
 
 

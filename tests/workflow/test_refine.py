@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from project_copy import Project
 
-from rubfric.results.curves import ADDED, WHOLE, WORDS
+from rubfric.results.curves import ADDED, WORDS
+from rubfric.results.limits import WHOLE
 from rubfric.results.tables import read_table
 from rubfric.results.temperature import COLUMN
 

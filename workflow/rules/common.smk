@@ -350,7 +350,7 @@ def follow(workflow):
         RESULTS,
         targets=[own[rule.name] for rule in workflow.modifier.rules if not rule.output],
         rules=own,
-        tables=[*TABLES, *COMPARISON.values()],
+        tables=[*TABLES, CURVE_TABLES["peaks"], *COMPARISON.values()],
         first=[
             f"{RESULTS}/{path}"
             for path in (

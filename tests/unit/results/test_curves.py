@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from rubfric.results.curves import ADDED, GRID, WHOLE, curve_table, scale_name
-from rubfric.results.limits import MOST
+from rubfric.results.curves import ADDED, GRID, curve_table, scale_name
+from rubfric.results.limits import MOST, WHOLE
 from rubfric.results.peaks import peak_table
 
 SPEEDS = np.array([0.1, 1.0, 10.0, 100.0, 1000.0])
