@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from links import broken_links
+from page_links import broken_links
 from project_copy import Project
 
 from rubfric.results.dataset import read

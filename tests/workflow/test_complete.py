@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import numpy as np
 import pandas as pd
 import pytest
-from links import Page, broken_links
+from page_links import Page, broken_links
 from project_copy import Plan, Project
 
 from rubfric.results.campaign import read

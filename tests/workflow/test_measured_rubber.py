@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 import yaml
-from links import broken_links
+from page_links import broken_links
 from project_copy import Project
 
 from rubfric import load, simulate

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from links import broken_links
+from page_links import broken_links
 from project_copy import Project
 
 MINE = """

@@ -141,6 +141,7 @@ def test_pressures_of_other_blocks_are_left_out(make_campaign: Maker) -> None:
         "0.5",
         "5",
         "Sampled peak",
+        "Carries a warning",
     ]
     assert figure.get_supxlabel() == "Estimated error at most 1.2\N{NO-BREAK SPACE}%: too small for bands to be seen."
 

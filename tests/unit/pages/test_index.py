@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from links import Page, broken_links
+from page_links import Page, broken_links
 from synthetic_campaign import make_campaign, make_totals
 from synthetic_site import make_site
 
