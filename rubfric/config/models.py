@@ -50,8 +50,8 @@ class Grid(Entry):
         float | None,
         Number(
             "Add speeds where friction over speed is not known to this share of itself between the grid's, by the "
-            "estimated error of interpolation: on every scale and on the whole road, at every pressure and temperature and "
-            "the aspect of the grid, for the first rubber on the first road. None are added where it is left out.",
+            "estimated error of interpolation: on every scale and on the whole road, at every pressure and temperature "
+            "and the aspect of the grid, for the first rubber on the first road. None are added where it is left out.",
             low=0.001,
             high=0.2,
         ),

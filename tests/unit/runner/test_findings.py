@@ -132,7 +132,8 @@ def test_largest_friction_between_speeds_is_said_where_some_were_added(tmp_path:
     peaks = tmp_path / "peaks.csv"
     pd.DataFrame([lower, row, scale]).assign(added=11).to_csv(peaks, index=False)
     assert findings([peaks]) == [
-        "largest friction of the whole road over all speeds 0.361 ± 0.02, at 23.3 mm/s (between 10.6 and 39) and 0.1 MPa"
+        "largest friction of the whole road over all speeds 0.361 ± 0.02, at 23.3 mm/s (between 10.6 and 39) and "
+        "0.1 MPa"
     ]
     pd.DataFrame([lower, row, scale]).assign(added=0).to_csv(peaks, index=False)
     assert findings([peaks]) == []
