@@ -49,8 +49,8 @@ def sliding(curve):
     }
 
 
-CURVES = scenes_of_curves()
-REFINED = [*CURVES] if CAMPAIGN.refine else []
+CURVES = scenes_of_curves() if CAMPAIGN.refine else {}
+REFINED = [*CURVES]
 ADDED = ".snakemake/added"
 # The tables of the grid's points, and of the added ones, by the name of the curve.
 CURVES_OF = {
