@@ -7,7 +7,11 @@ Three lines answer for one scene::
     campaign = rubfric.load()
     result = rubfric.simulate(campaign.scene(scale=1, velocity=100, pressure=5))
 
-Names are imported when they are first used, so that ``import rubfric`` costs next to nothing.
+and one for the friction of the whole road, on all cores::
+
+    friction = campaign.run()
+
+Names, ``rubfric.plot`` too, are imported when they are first used, so that ``import rubfric`` costs next to nothing.
 """
 
 from __future__ import annotations
@@ -16,6 +20,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
+    from rubfric import plot as plot
     from rubfric.areal_simulation import simulate_areal
     from rubfric.config.campaign import Campaign, load
     from rubfric.errors import BrokenResult, InvalidInput, NotConverged, NotWritten, RubfricError
@@ -32,7 +37,7 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
     from rubfric.simulation import simulate
-    from rubfric.total_simulation import friction
+    from rubfric.total_simulation import friction, run
 
 __version__ = "0.1.0"
 
@@ -57,6 +62,7 @@ _HOMES = {
     "friction": "total_simulation",
     "load": "config.campaign",
     "march": "marching",
+    "run": "total_simulation",
     "simulate": "simulation",
     "simulate_areal": "areal_simulation",
     "write": "results.dataset",
@@ -84,6 +90,7 @@ __all__ = [
     "friction",
     "load",
     "march",
+    "run",
     "simulate",
     "simulate_areal",
     "write",
@@ -91,6 +98,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "plot":
+        return import_module("rubfric.plot")
     if name not in _HOMES:
         raise AttributeError(f"module 'rubfric' has no attribute {name!r}")
     return getattr(import_module(f"rubfric.{_HOMES[name]}"), name)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import rubfric
 from rubfric.commands.areal import add_areal, slide
+from rubfric.commands.completion import SHELLS, PrintCompletion
 from rubfric.commands.export import add_export
 from rubfric.commands.friction import add_friction
 from rubfric.commands.road import add_road
@@ -57,11 +58,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _run(arguments: list[str] | None) -> int:
     parser = _parser()
-    options = parser.parse_args(arguments)
-    if not hasattr(options, "run"):
-        parser.print_help()
-        return 0
     try:
+        options = parser.parse_args(arguments)
+        if not hasattr(options, "run"):
+            parser.print_help()
+            return 0
         return int(options.run(options))
     except (InvalidInput, FileNotFoundError) as error:
         print(f"rubfric: {error}", file=sys.stderr)
@@ -82,6 +83,13 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"rubfric {rubfric.__version__}")
+    parser.add_argument(
+        "--print-completion",
+        action=PrintCompletion,
+        choices=SHELLS,
+        metavar="SHELL",
+        help=f"print the script that completes commands, options and files in a shell: {', '.join(SHELLS)}",
+    )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     simulate = commands.add_parser(
         "simulate",

@@ -1,14 +1,19 @@
-"""Standard output that is closed, full, or read by nobody to its end."""
+"""Standard output that is closed, full, or read by nobody to its end; a line that says how far something is."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import sys
+import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import IO, Any
 
 from rubfric.errors import NotWritten
+
+# Time between two lines that are not written over: a twentieth of the time so far, within these bounds, s.
+_SHORTEST, _LONGEST = 5.0, 60.0
 
 
 class _Patient:
@@ -66,3 +71,45 @@ def patient_output() -> Iterator[None]:
     finally:
         sys.stdout = before
         patient.flush()
+
+
+class OneLine:
+    """A line that says how far something is: written over itself on a terminal or in a notebook, else now and then.
+
+    Parameters
+    ----------
+    stream : text file or None
+        None for nowhere.
+    clock : callable, optional
+        Returns the time, s.
+    """
+
+    def __init__(self, stream: IO[str] | None, clock: Callable[[], float] = time.monotonic) -> None:
+        self._stream, self._clock = stream, clock
+        self._over = stream is not None and (stream.isatty() or type(stream).__module__.startswith("ipykernel"))
+        self._began = clock()
+        self._next = self._began + _SHORTEST
+        self._width = 0
+
+    def show(self, text: str, last: bool = False) -> None:
+        """Show a text; the last one stays, and is shown in any case.
+
+        Parameters
+        ----------
+        text : str
+        last : bool
+        """
+        now = self._clock()
+        if self._stream is None or not (self._over or last or now >= self._next):
+            return
+        self._next = now + min(max(_SHORTEST, 0.05 * (now - self._began)), _LONGEST)
+        with suppress(OSError, ValueError):  # a terminal that is gone
+            if self._over:
+                text = text if last else text[: shutil.get_terminal_size().columns - 1]
+                self._stream.write("\r" + text.ljust(self._width))
+                self._width = len(text)
+            else:
+                self._stream.write(text + "\n")
+            if last and self._over:
+                self._stream.write("\n")
+            self._stream.flush()

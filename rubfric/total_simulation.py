@@ -2,53 +2,52 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import NamedTuple
 
-import netCDF4
 import pandas as pd
+import xarray as xr
 
 import rubfric
-from rubfric.checksums import check_seal
+from rubfric.checksums import fingerprint
 from rubfric.config.campaign import Campaign
+from rubfric.config.pairs import not_covered
 from rubfric.config.temperature import rubber_at
-from rubfric.errors import BrokenResult, InvalidInput, NotConverged
-from rubfric.results.campaign import collect
-from rubfric.results.dataset import write
+from rubfric.errors import BrokenResult
+from rubfric.results import answer, kept
+from rubfric.results.campaign import COLLECTED, collect
+from rubfric.results.dataset import load, write
 from rubfric.results.draws import over_draws
-from rubfric.results.provenance import refusal
-from rubfric.results.selection import NOT_NEEDED, REFUSAL
+from rubfric.results.provenance import CONVENTIONS, PAPER, SOFTWARE, SOLVER
+from rubfric.results.temperature import MATERIALS
 from rubfric.results.totals import total_tables
 from rubfric.results.whole_road import WholeRoad
-from rubfric.rules import LARGEST, Items, Number
+from rubfric.rules import LARGEST, Integer, Items, Number
 from rubfric.scene.scene import Scene
-from rubfric.simulation import simulate
+from rubfric.scene_jobs import SCENES, WHOLE, Job, solve_all
+from rubfric.sources import code
+from rubfric.workers import cores
 
-_SCENES, _WHOLE = "scenes", "whole"
-
-
-class _Job(NamedTuple):
-    """A scene: the folder of its result within those of a campaign, its name there, and itself."""
-
-    folder: str
-    name: str
-    scene: Scene
+# What all scenes share, as JSON, and what stands for all of them.
+_SHARED = ("material", MATERIALS, "numerics", COLLECTED)
 
 
-def friction(
+def run(
     campaign: Campaign,
     velocities: Sequence[float] | None = None,
     pressures: Sequence[float] | None = None,
     temperatures: Sequence[float] | None = None,
-    progress: Callable[[str], None] | None = None,
-) -> pd.DataFrame:
+    jobs: int | None = None,
+    progress: bool | Callable[[str], None] = True,
+) -> xr.Dataset:
     """Return the friction of the whole road with its errors, that of every scale, and the way that counts.
 
-    It is the table that the workflow writes to ``tables/friction_total.csv``. Results in the campaign's folder are used
-    where they are of the same scenes and of this version; the others are solved here, one by one, and not kept.
+    Scenes are solved side by side. Results are kept in the folder ``.cache`` of the campaign's results, under digests
+    of all that they depend on, code included: the next call, and one that was interrupted, begins with them, and with
+    those of the workflow.
 
     Parameters
     ----------
@@ -60,13 +59,17 @@ def friction(
         Nominal, MPa.
     temperatures : sequence of float, optional
         degC, of a rubber with shift factors.
-    progress : callable, optional
-        Takes a line for every scene that is solved.
+    jobs : int, optional
+        How many scenes at a time; as many as there are cores by default.
+    progress : bool or callable
+        Whether a line on standard error says what is done and how long the rest may take; or what takes such a line
+        after every scene.
 
     Returns
     -------
-    pandas.DataFrame
-        As from ``rubfric.results.totals.total_tables``.
+    xarray.Dataset
+        As from ``rubfric.results.answer.dataset``: ``friction_total``, its errors, ``way`` and more over temperature
+        (degC, where there is one), pressure (MPa) and velocity (mm/s); ``friction_scale`` and its error over scale too.
 
     Raises
     ------
@@ -78,28 +81,61 @@ def friction(
     Examples
     --------
     >>> import rubfric
+    >>> campaign = rubfric.load({"multiscale": "sum", "kinematics": "small"})
+    >>> result = rubfric.run(campaign, velocities=[100], pressures=[0.5], progress=False)
+    >>> print(f"{result.friction_total.item():.2f} +- {result.friction_total_error.item():.2f}")
+    0.65 +- 0.10
+    """
+    asked = at_points(campaign, velocities, pressures, temperatures)
+    if jobs is not None:
+        Integer().check("jobs", jobs)
+    parameters = {warm: one.whole_parameters() for warm, one in asked.by_temperature.items()}
+    scenes = {SCENES: asked.scenes(), WHOLE: asked.whole_scenes()}
+    named = [f"{name} {scene.digest}" for of in scenes.values() for name, scene in of.items()]
+    which = fingerprint([code(__name__), asked.words(), *named, json.dumps([*parameters.values()])])
+    known = kept.place(asked.results) / f"{which}.nc"
+    if known.is_file():
+        with suppress(BrokenResult):
+            return load(known)
+    with kept.opened(known.parent) as folder:
+        found = _solved(asked, parameters, scenes, folder, jobs or cores(), progress)
+        write(found, folder / known.name)
+    return found
+
+
+def friction(
+    campaign: Campaign,
+    velocities: Sequence[float] | None = None,
+    pressures: Sequence[float] | None = None,
+    temperatures: Sequence[float] | None = None,
+    jobs: int | None = None,
+    progress: bool | Callable[[str], None] = False,
+) -> pd.DataFrame:
+    """Return what ``run`` does as the table that the workflow writes to ``tables/friction_total.csv``.
+
+    Parameters
+    ----------
+    campaign, velocities, pressures, temperatures, jobs, progress
+        As for ``run``.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As from ``rubfric.results.totals.total_tables``.
+
+    Raises
+    ------
+    InvalidInput, NotConverged
+        As ``run`` does.
+
+    Examples
+    --------
+    >>> import rubfric
     >>> table = rubfric.friction(rubfric.load({"multiscale": "sum", "kinematics": "small"}), [100], [0.5])
     >>> print(f"{table['friction_total'][0]:.2f}")
     0.65
     """
-    asked = at_points(campaign, velocities, pressures, temperatures)
-    roads = {warm: WholeRoad.from_parameters(one.whole_parameters()) for warm, one in asked.by_temperature.items()}
-    jobs = [_Job(_SCENES, name, scene) for name, scene in asked.scenes().items()]
-    jobs += [_Job(_WHOLE, name, scene) for name, scene in asked.whole_scenes().items()]
-    with TemporaryDirectory(prefix="rubfric-") as folder:
-        paths = _results(asked, jobs, roads, Path(folder), progress or (lambda line: None))
-        digests = {paths[job]: job.scene.digest for job in jobs if job.folder == _SCENES}
-        collected = collect(digests, digests.values())
-        whole = {}
-        for draw in asked.whole_roads:
-            own = {
-                paths[job]: job.scene.digest
-                for job in jobs
-                if job.folder == _WHOLE and job.name == draw + job.scene.name
-            }
-            whole[draw] = collect(own, own.values())
-    mean = whole[""] if "" in whole else over_draws([*whole.values()], "window1/" in whole) if whole else None
-    return total_tables(collected, mean, roads)
+    return answer.table(run(campaign, velocities, pressures, temperatures, jobs, progress))
 
 
 def at_points(
@@ -138,49 +174,56 @@ def _positive(name: str, unit: str, values: Sequence[float]) -> tuple[float, ...
     return Items(each=Number(unit=unit)).check(name, [*values])
 
 
-def _results(
+def _solved(
     campaign: Campaign,
-    jobs: Sequence[_Job],
-    roads: Mapping[float | None, WholeRoad],
+    parameters: Mapping[float | None, Mapping[str, object]],
+    scenes: Mapping[str, Mapping[str, Scene]],
     folder: Path,
-    progress: Callable[[str], None],
-) -> dict[_Job, str]:
-    """Return the paths of the results of all scenes: those that the workflow made, and others, made in a folder."""
-    paths, missing = {}, []
-    for place, job in enumerate(jobs):
-        road = roads[job.scene.temperature if campaign.temperatures else None] if job.folder == _WHOLE else None
-        # As in the workflow: only where any way will do is the whole road not needed everywhere.
-        way = road.cheapest(job.scene.velocity, job.scene.pressure) if road and road.way == "auto" else "direct"
-        own = str(folder / f"{place}.nc")
-        kept = Path(campaign.results, job.folder, campaign.material.name, campaign.road_name, f"{job.name}.nc")
-        if way != "direct":
-            write(refusal(job.scene, NOT_NEEDED + way), own)
-        elif _is_of(kept, job.scene):
-            own = str(kept)
-        else:
-            missing.append(job)
-        paths[job] = own
-    for count, job in enumerate(missing, 1):
-        progress(f"solving {count} of {len(missing)}: {job.name}")
-        try:
-            result = simulate(job.scene)
-        except (InvalidInput, NotConverged) as reason:
-            if job.folder != _WHOLE:
-                raise
-            result = refusal(job.scene, reason)
-        write(result, paths[job])
-    return paths
+    at_once: int,
+    progress: bool | Callable[[str], None],
+) -> xr.Dataset:
+    """Return the friction of the whole road out of the results of all scenes, solving those that are missing."""
+    roads = {warm: WholeRoad.from_parameters(given) for warm, given in parameters.items()}
+    made = Path(campaign.results)
+    jobs = []
+    for kind, of in scenes.items():
+        for name, scene in of.items():
+            warm = scene.temperature if campaign.temperatures else None
+            # As in the workflow: only where any way will do is the whole road not needed everywhere.
+            road = roads[warm] if kind == WHOLE and roads[warm].way == "auto" else None
+            depends = [json.dumps(parameters[warm], sort_keys=True)] if road else []
+            paths = (kept.path_of(folder, scene, *depends), kept.path_of(folder, scene))
+            by_workflow = made / kind / campaign.material.name / campaign.road_name / f"{name}.nc"
+            jobs.append(Job(kind, name, scene, *paths, by_workflow, road))
+    found = {job: job.path if kept.fits(job.path, job.scene, not job.road) else job.made for job in jobs}
+    missing = [job for job in jobs if found[job] == job.made and (job.road or not kept.fits(job.made, job.scene))]
+    if missing:
+        found |= {job: job.path for job in missing}
+        solve_all(missing, at_once, progress)
+    own = {found[job]: job.scene.digest for job in jobs if job.kind == SCENES}
+    collected, drawn = collect(own, own.values()), {}
+    for draw in campaign.whole_roads:
+        own = {found[job]: job.scene.digest for job in jobs if job.kind == WHOLE and job.name == draw + job.scene.name}
+        drawn[draw] = collect(own, own.values())
+    mean = drawn[""] if "" in drawn else over_draws([*drawn.values()], "window1/" in drawn) if drawn else None
+    about = {name: collected.attrs[name] for name in _SHARED if name in collected.attrs}
+    return answer.dataset(total_tables(collected, mean, roads), collected, _about(campaign) | about)
 
 
-def _is_of(path: Path, scene: Scene) -> bool:
-    """Return whether a file is a whole result of a scene by this version."""
-    if not path.is_file():
-        return False
-    try:
-        check_seal(path)
-        with netCDF4.Dataset(path) as stored:
-            known = [str(stored.getncattr(name)) for name in ("scene_digest", "source")]
-            refused = str(stored.getncattr(REFUSAL)) if REFUSAL in stored.ncattrs() else ""
-    except (BrokenResult, OSError, AttributeError):
-        return False
-    return known == [scene.digest, f"rubfric {rubfric.__version__}"] and not refused.startswith(NOT_NEEDED)
+def _about(campaign: Campaign) -> dict[str, str]:
+    """Return what the dataset says of its campaign."""
+    return {
+        "title": "Friction of a rubber on a road over sliding speed and pressure",
+        "Conventions": CONVENTIONS.split()[0],
+        "source": f"rubfric {rubfric.__version__}",
+        "references": PAPER,
+        "software": SOFTWARE,
+        "campaign": campaign.words(),
+        "rubber": campaign.material.name,
+        "road": campaign.road_name,
+        "plane": campaign.plane,
+        "kinematics": campaign.kinematics,
+        "multiscale": campaign.multiscale.way,
+        "not_covered": "; ".join(not_covered(campaign)),
+        "code_digest": code(SOLVER),
+    }

@@ -35,14 +35,17 @@ WAY = {
 }
 # A colour for the rooms of each part of the story: line, ground.
 _COLOURS = {
-    "errors arrays checks checksums files markdown outputs rules streams": ("#7b8794", "#f5f7fa"),
+    "errors arrays checks checksums files markdown outputs progress rules sources streams workers": (
+        "#7b8794",
+        "#f5f7fa",
+    ),
     "rubber road columns profile dma decks scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
-    "results simulation areal_simulation areal_plane marching total_simulation curve_simulation": (
+    "results simulation areal_simulation areal_plane marching scene_jobs total_simulation curve_simulation": (
         "#1a6e8e",
         "#eef7fb",
     ),
-    "rig studies figures": ("#a16207", "#fdf8ea"),
+    "rig studies figures plot": ("#a16207", "#fdf8ea"),
     "pages commands cli runner": ("#882255", "#fbf0f5"),
 }
 _INK, _PALE, _MARK = "#1f2933", "#52606d", "#b3261e"

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import rubfric
 from rubfric.checks import written
+from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import not_covered, which
 from rubfric.config.plausibility import check_plausible
 from rubfric.config.temperature import rubber_at
-from rubfric.errors import InvalidInput
 
 if TYPE_CHECKING:  # heavy
     import pandas as pd
@@ -29,8 +29,8 @@ examples:
   rubfric friction --config mine.yaml --velocity 1,10,100 --pressure 0.2,1
   rubfric friction --config mine.yaml --velocity 100 --pressure 0.3 --temperature 0,20,60 --csv > friction.csv
 
-Speeds, pressures and temperatures are those of the config's grid by default. Results in the config's folder are used
-where they fit; what is missing is solved, one scene after the other, and not kept: run snakemake for a whole grid.
+Speeds, pressures and temperatures are those of the config's grid by default. Scenes are solved side by side, and kept
+in the folder .cache of the config's results: what is known there, or from snakemake, is not solved again.
 """
 # Columns of the table that are printed, and their headings.
 _AXES = {"velocity_mm_per_s": "mm/s", "pressure_MPa": "MPa", "temperature_degC": "degC"}
@@ -70,17 +70,25 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
         ("temperature", "temperatures of a rubber with shift factors, degC"),
     ):
         command.add_argument(
-            f"--{name}", metavar=f"{name[0].upper()},...", help=f"{what}, with commas between (default: the grid's)"
+            f"--{name}",
+            action=Numbers,
+            metavar=f"{name[0].upper()},...",
+            help=f"{what}, with commas between (default: the grid's)",
         )
+    take_negative_lists(command)
     form = command.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON, for scripts")
     form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")
+    command.add_argument(
+        "--jobs", "-j", type=int, metavar="N", help="scenes to solve at a time (default: as many as there are cores)"
+    )
+    command.add_argument("--quiet", "-q", action="store_true", help="do not say how far it is")
     command.set_defaults(run=_friction, configs=configs)
 
 
 def _friction(options: argparse.Namespace) -> int:
     campaign = campaigns.load(*options.configs(options.config or []))
-    points = [_listed(options, name) for name in ("velocity", "pressure", "temperature")]
+    points = [getattr(options, name) for name in ("velocity", "pressure", "temperature")]
     from rubfric.total_simulation import at_points, friction  # heavy: only once the config is known to be right
 
     asked = at_points(campaign, *points)
@@ -89,23 +97,12 @@ def _friction(options: argparse.Namespace) -> int:
         print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
     if campaign.others:
         print(f"rubfric: {which(campaign)}", file=sys.stderr)
-    table = friction(asked, progress=lambda line: print(f"rubfric: {line}", file=sys.stderr, flush=True))
+    table = friction(asked, jobs=options.jobs, progress=not options.quiet)
     if options.csv:
         print(table.to_csv(index=False, float_format="%.6g"), end="")
     else:
         print(as_json(asked, table) if options.json else as_text(asked, table))
     return 0
-
-
-def _listed(options: argparse.Namespace, name: str) -> list[float] | None:
-    """Return the numbers of an option, between commas; nothing where it is not given."""
-    text = getattr(options, name)
-    if text is None:
-        return None
-    try:
-        return [float(word) for word in text.split(",")]
-    except ValueError:
-        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
 
 
 def as_text(campaign: Campaign, table: pd.DataFrame) -> str:

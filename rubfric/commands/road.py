@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from rubfric.columns.format import DECIMALS, SEPARATORS, Format
+from rubfric.commands.lists import Numbers
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
 from rubfric.errors import InvalidInput
@@ -36,9 +37,9 @@ street.csv holds distance and height, with units in the headings; empty heights 
 """
 _SLIDE = """\
 examples:
-  rubfric road slide street.csv --velocity 1 10 100 1000 --pressure 0.3
-  rubfric road slide street.csv --velocity 100 --pressure 0.1 0.3 --cutoff 2 1 0.5 --windows 4 --config tread.yaml
-  rubfric road slide street.csv --velocity 100 --pressure 0.3 --cutoff 1 --window 40 20 80 --block-height 8 4 16
+  rubfric road slide street.csv --velocity 1,10,100,1000 --pressure 0.3
+  rubfric road slide street.csv --velocity 100 --pressure 0.1,0.3 --cutoff 2,1,0.5 --windows 4 --config tread.yaml
+  rubfric road slide street.csv --velocity 100 --pressure 0.3 --cutoff 1 --window 40,20,80 --block-height 8,4,16
 
 Friction is the mean over the windows, with its standard error beside the numerical one. Of several windows, blends or
 block heights each is varied by itself, the others at their first, over the same stretch of road.
@@ -56,6 +57,8 @@ _NUMBERS: dict[str, Rule] = {
     **{name: rules(Scene)[name] for name in ("velocity", "pressure")},
     "accuracy": rules(Numerics)["accuracy"],
 }
+# Of an option that takes several numbers.
+_SEVERAL: dict[str, Any] = {"action": Numbers, "nargs": "+", "metavar": "X,..."}
 _FORMS = {"mean": 0, "tilt": 1, "bow": 2}
 
 
@@ -82,7 +85,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
         epilog=_READ,
         formatter_class=raw,
     )
-    _add_reading(read, None)
+    _add_reading(read, several=False)
     read.add_argument("--cutoff", type=float, metavar="X", help="shortest wavelength kept, mm (default: found out)")
     read.add_argument("--scales", type=int, default=4, metavar="N", help="number of sines (default: 4)")
     read.add_argument("--output", "-o", type=Path, metavar="FILE", help="YAML file (default: road_NAME.yaml)")
@@ -94,17 +97,13 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
         epilog=_SLIDE,
         formatter_class=raw,
     )
-    _add_reading(slide, "+")
+    _add_reading(slide, several=True)
     for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
-        slide.add_argument(f"--{name}", type=float, nargs="+", required=True, metavar="X", help=what)
-    slide.add_argument(
-        "--cutoff", type=float, nargs="+", metavar="X", help="shortest wavelengths kept, mm (default: 4, 2 and 1)"
-    )
+        slide.add_argument(f"--{name}", **_SEVERAL, required=True, help=what)
+    slide.add_argument("--cutoff", **_SEVERAL, help="shortest wavelengths kept, mm (default: 4,2,1)")
     slide.add_argument("--windows", type=int, metavar="N", help="how many (default: 6, or as many as there are)")
     slide.add_argument("--scales", type=int, metavar="N", help="compare with so many sines (default: none)")
-    slide.add_argument(
-        "--block-height", type=float, nargs="+", default=[8.0], metavar="X", help="of the block, mm (default: 8)"
-    )
+    slide.add_argument("--block-height", **_SEVERAL, default=[8.0], help="of the block, mm (default: 8)")
     slide.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     slide.add_argument("--kinematics", choices=KINEMATICS, help="small or finite strain (default: the config's)")
     slide.add_argument("--accuracy", type=float, metavar="A", help="relative accuracy (default: the config's)")
@@ -115,7 +114,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
     slide.set_defaults(run=_slide, configs=configs)
 
 
-def _add_reading(command: argparse.ArgumentParser, several: str | None) -> None:
+def _add_reading(command: argparse.ArgumentParser, several: bool) -> None:
     """Add the arguments that say how a profile is read, cleaned and cut into windows, of one or ``several`` kinds."""
     command.add_argument("file", metavar="FILE", help="text (CSV), ISO 25178-71 (.sdf), or an instrument's own format")
     command.add_argument("--unit", metavar="U", help="unit of distances and heights, or both, mm,um say")
@@ -138,17 +137,10 @@ def _add_reading(command: argparse.ArgumentParser, several: str | None) -> None:
         help="what is subtracted: mean, tilt, or tilt and bow (default: tilt)",
     )
     command.add_argument("--keep-ends", action="store_true", help="flat ends are road, not plates")
-    command.add_argument(
-        "--window", type=float, nargs=several, metavar="X", help="length of a window, mm (default: 40, where it fits)"
-    )
-    command.add_argument(
-        "--blend",
-        type=float,
-        nargs=several,
-        default=[0.1] if several else 0.1,
-        metavar="X",
-        help="share of it that is blended (default: 0.1)",
-    )
+    form = _SEVERAL if several else {"type": float, "metavar": "X"}
+    command.add_argument("--window", **form, help="length of a window, mm (default: 40, where it fits)")
+    blend = [0.1] if several else 0.1
+    command.add_argument("--blend", **form, default=blend, help="share of it that is blended (default: 0.1)")
     command.add_argument("--name", help="name of the road (default: that of the file)")
 
 

@@ -6,12 +6,13 @@ Light on purpose: the workflow reads it before any job starts, so nothing of the
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import chain, product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import rubfric
 from rubfric import checks
 from rubfric.config.areal_road import ArealEntry
 from rubfric.config.default import over_default
@@ -51,6 +52,9 @@ from rubfric.rules import Choice
 from rubfric.scene.areal import ArealScene
 from rubfric.scene.numerics import Numerics
 from rubfric.scene.scene import ALL, Scene
+
+if TYPE_CHECKING:  # heavy
+    import xarray as xr
 
 
 def _span(values: tuple[float, ...]) -> str:
@@ -170,6 +174,10 @@ class Campaign:
     others: tuple[Campaign, ...] = ()
     areal_roads: dict[str, ArealEntry] = field(default_factory=dict)
     areal: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        others = f"; the first of {len(self.pairs)} pairs of rubber and road" if self.others else ""
+        return f"<Campaign: {self.words().rstrip('.')}; results in {self.results}{others}>"
 
     @classmethod
     def from_config(cls, config: Mapping[str, Any], kept: str | os.PathLike[str] | None = None) -> Campaign:
@@ -435,6 +443,27 @@ class Campaign:
             kinematics=other.kinematics or self.kinematics,
             numerics=self.presets[self.claims.preset] if self.claims else self.numerics,
         )
+
+    def run(
+        self,
+        velocities: Sequence[float] | None = None,
+        pressures: Sequence[float] | None = None,
+        temperatures: Sequence[float] | None = None,
+        jobs: int | None = None,
+        progress: bool | Callable[[str], None] = True,
+    ) -> xr.Dataset:
+        """Return the friction of the whole road with its errors and that of every scale: ``rubfric.run`` of this.
+
+        Parameters
+        ----------
+        velocities, pressures, temperatures : sequence of float, optional
+            mm/s, nominal MPa and degC; by default the grid's.
+        jobs : int, optional
+            How many scenes at a time; as many as there are cores by default.
+        progress : bool or callable
+            Whether to say how far it is; or what takes a line on it.
+        """
+        return rubfric.run(self, velocities, pressures, temperatures, jobs, progress)  # loads the mechanics only now
 
     def words(self) -> str:
         """Return in a sentence what is run: rubber, road, plane, kinematics, grid and accuracy."""

@@ -13,12 +13,15 @@ import rubfric
 from rubfric.results.selection import REFUSAL
 from rubfric.road.waves import WaveRoad
 from rubfric.scene.scene import ALL, Scene
+from rubfric.sources import code
 
 PAPER = "Zhou, Wang and Wei 2019, J. Eng. 2019(23), 8986-8990, doi:10.1049/joe.2018.9163"
 CONVENTIONS = "CF-1.11 UGRID-1.0"
 # Message about a result of other parameters.
 OTHER_SCENE = "is the result of another scene, rubber or numerics than the config asks for"
 
+# What a result is made by, as the workflow has it too; its code has a digest in every file.
+SOLVER = "rubfric.simulation"
 # Read once: looking up versions takes as long as a scene.
 SOFTWARE = ", ".join(
     [f"Python {platform.python_version()}"]
@@ -43,6 +46,7 @@ def about(scene: Scene, title: str) -> dict[str, Any]:
         "scene": scene.name,
         "scene_parameters": json.dumps(scene.parameters(), sort_keys=True),
         "scene_digest": scene.digest,
+        "code_digest": code(SOLVER),
         "rubber": scene.material.name,
         "plane": scene.plane,
         "software": SOFTWARE,

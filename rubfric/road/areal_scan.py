@@ -88,6 +88,11 @@ class ScannedRoad:
                 f"{0.5 * min(self.periods):.4g} mm"
             )
 
+    def __repr__(self) -> str:
+        (rows, columns), (dx, dy) = self.heights.shape, self.spacing
+        cut = "" if self.cut_off is None else f", waves of {self.cut_off:g} mm and longer"
+        return f"<ScannedRoad: {columns} x {rows} heights, every {dx:g} x {dy:g} mm{cut}>"
+
     @classmethod
     def of_heights(
         cls,

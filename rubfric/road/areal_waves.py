@@ -75,6 +75,10 @@ class ArealWaves:
         if np.abs(near - components).max() > _SAME * max(self.wavenumbers):
             raise InvalidInput(_no_periods(self.wavenumbers, self.directions, near))
 
+    def __repr__(self) -> str:
+        lengths = [2.0 * math.pi / number for number in (min(self.wavenumbers), max(self.wavenumbers))]
+        return f"<ArealWaves: {len(self.wavenumbers)} waves of {lengths[0]:.4g} to {lengths[1]:.4g} mm>"
+
     @classmethod
     def nearest(
         cls,

@@ -37,6 +37,9 @@ class SineScale:
     def __post_init__(self) -> None:
         check_fields(self, "road.")
 
+    def __repr__(self) -> str:
+        return f"<SineScale: amplitude {self.amplitude:g} mm, wavelength {self.wavelength:.4g} mm>"
+
     @property
     def wavelength(self) -> float:
         """Lambda = 2 pi / k, mm."""

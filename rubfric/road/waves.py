@@ -64,6 +64,13 @@ class WaveRoad:
         if change > _SAME:
             raise InvalidInput(_no_period(self.wavenumbers, parts, change))
 
+    def __repr__(self) -> str:
+        finest = 2.0 * math.pi / max(self.wavenumbers)
+        return (
+            f"<WaveRoad: {len(self.wavenumbers)} waves of {self.wavelength:.4g} to {finest:.4g} mm, period "
+            f"{self.period:.4g} mm>"
+        )
+
     @classmethod
     def nearest(cls, amplitudes: Sequence[float], wavenumbers: Sequence[float], phases: Sequence[float]) -> WaveRoad:
         """Return the road of the nearest wavenumbers that have a common period.

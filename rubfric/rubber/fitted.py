@@ -86,6 +86,10 @@ class Measured:
     window: tuple[float, float]
     samples: tuple[Sample, ...] = ()
 
+    def __repr__(self) -> str:
+        low, high = self.window
+        return f"<Measured: {low:.3g} to {high:.3g} rad/s, {len(self.samples)} samples>"
+
     @classmethod
     def from_parameters(cls, given: Mapping[str, Any]) -> Measured:
         """Return it from plain values, as ``dataclasses.asdict`` gives them."""
@@ -120,6 +124,9 @@ class FittedRubber:
     shifts: tuple[Shift, ...] = ()
     warnings: tuple[str, ...] = ()
     source: str = ""
+
+    def __repr__(self) -> str:
+        return f"<FittedRubber: {self.words}>"
 
     def at(self, temperature: float | None = None) -> tuple[Material, Measured]:
         """Return the rubber at a temperature in degC, and what the measurement leaves open there.

@@ -97,6 +97,16 @@ class Material:
                 f"{_LEAST_SHARE:g}: twelve digits of each share do not say more"
             )
 
+    def __repr__(self) -> str:
+        times = [f"{time:g}" for time in sorted(self.relaxation_times)]
+        branches = (
+            f", {len(times)} Maxwell branches of {' to '.join(dict.fromkeys([times[0], times[-1]]))} s" if times else ""
+        )
+        return (
+            f"<Material {self.name}: {self.moduli.replace('_', '-')} E {self.youngs_modulus:g} MPa, nu "
+            f"{self.poissons_ratio:g}{branches}, {self.bulk} bulk>"
+        )
+
     @property
     def long_term_fraction(self) -> float:
         """g_inf = 1 - sum of g_i, the long-term share of the shear modulus."""

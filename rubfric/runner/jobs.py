@@ -9,54 +9,25 @@ from __future__ import annotations
 
 import contextlib
 import io
-import multiprocessing
 import os
 import runpy
-import signal
 import sys
 import threading
 import time
 import traceback
-import types
-from collections.abc import Callable, Iterator
-from multiprocessing import forkserver
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from rubfric.errors import RubfricError
 from rubfric.files import why_not
 from rubfric.runner import times
+from rubfric.workers import Worker, hire, start_server
 
-# One thread each: the systems are small, and jobs run side by side.
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_WARM = "rubfric.runner.warm"
 _LOCK = threading.Lock()
 _IDLE: list[Worker] = []
 _SECONDS: dict[str, float] = {}
-# How long to wait for the exit status of a process that has ended, s.
-_PATIENCE = 5.0
-
-
-class Worker(NamedTuple):
-    """A process that runs jobs one by one, and the connection to it."""
-
-    connection: Connection
-    process: BaseProcess
-
-    def last_words(self) -> str:
-        """Return how the process ended that has not said why."""
-        self.process.join(_PATIENCE)
-        status = self.process.exitcode
-        if status is not None and status >= 0:
-            return (
-                f"the job's process ended with exit status {status} before it could say why; this is an error of the "
-                "program: report it, with the log"
-            )
-        return (
-            "the job's process died before it could say why; most likely it was killed, perhaps for lack of memory: "
-            "run again, with fewer jobs at a time (-j1) if it happens again"
-        )
 
 
 class JobFailed(RubfricError, RuntimeError):
@@ -65,12 +36,8 @@ class JobFailed(RubfricError, RuntimeError):
 
 def warm_up() -> None:
     """Start the server; returns at once, while it imports."""
-    _open_standard_files()
-    for name in _ONE_THREAD:
-        os.environ[name] = "1"
     os.environ.setdefault("MPLBACKEND", "Agg")
-    multiprocessing.set_forkserver_preload(["rubfric.runner.warm"])
-    forkserver.ensure_running()
+    start_server(_WARM)
 
 
 def run(script: str, log: str, **arguments: Any) -> None:
@@ -114,8 +81,7 @@ def _begin(job: tuple[str, str, dict[str, Any]]) -> Worker:
     while True:
         worker, fresh = _hire()
         try:
-            worker.connection.send(job)
-            worker.connection.recv()
+            worker.begin(_work, *job)
         except (EOFError, OSError) as error:
             worker.connection.close()
             if fresh:
@@ -128,45 +94,7 @@ def _hire() -> tuple[Worker, bool]:
     """Return an idle worker or a new one, and whether it is new."""
     warm_up()
     with _LOCK:
-        if _IDLE:
-            return _IDLE.pop(), False
-        context = multiprocessing.get_context("forkserver")
-        ours, theirs = context.Pipe()
-        with _hidden_main():
-            process = context.Process(target=_serve, args=(theirs,), daemon=True)
-            process.start()
-    theirs.close()
-    return Worker(ours, process), True
-
-
-def _open_standard_files() -> None:
-    """Open what the caller has closed of standard input, output and error, lest other files take their numbers."""
-    for descriptor in range(3):
-        try:
-            os.fstat(descriptor)
-        except OSError:
-            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)  # takes the lowest number that is free
-
-
-@contextlib.contextmanager
-def _hidden_main() -> Iterator[None]:
-    """Hide the main module, here all of Snakemake: a new process would import it again without need."""
-    main = sys.modules["__main__"]
-    sys.modules["__main__"] = types.ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
-
-
-def _serve(connection: Connection) -> None:
-    """Run the jobs that arrive, one by one, until the caller closes the connection."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    with contextlib.suppress(EOFError):
-        while True:
-            script, log, arguments = connection.recv()
-            connection.send("begun")
-            connection.send(_work(script, log, arguments))
+        return (_IDLE.pop(), False) if _IDLE else (hire(_WARM), True)
 
 
 def _work(script: str, log: str, arguments: dict[str, Any]) -> str | None:

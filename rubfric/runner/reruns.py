@@ -1,45 +1,15 @@
-"""Which jobs run again: the package files that a result depends on, found in import statements; Snakemake's records."""
+"""Which jobs run again: one file for the package files that a result depends on; Snakemake's records."""
 
 from __future__ import annotations
 
-import ast
-import hashlib
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
 from rubfric.errors import BrokenResult
 from rubfric.files import whole
-
-_PACKAGE = Path(__file__).resolve().parents[1]
-
-
-@cache
-def sources(*modules: str) -> tuple[Path, ...]:
-    """Return the package's files that importing ``modules`` runs, sorted; absolute paths.
-
-    Imports inside functions count. Files ``__init__.py`` do not: they hold a docstring only.
-
-    Parameters
-    ----------
-    *modules : str
-        Dotted names such as ``rubfric.simulation``.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        For a name that is no module of the package.
-    """
-    found: set[Path] = set()
-    waiting = [_file(module) for module in modules]
-    while waiting:
-        path = waiting.pop()
-        if path in found:
-            continue
-        found.add(path)
-        waiting.extend(_imported(path))
-    return tuple(sorted(found))
+from rubfric.sources import digests, sources
 
 
 @cache
@@ -78,8 +48,7 @@ def stamp_files(folder: str | os.PathLike[str], name: str, paths: Iterable[Path]
         Files of the package.
     """
     found = list(paths)
-    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(_PACKAGE.parent)}" for path in found]
-    return _kept(Path(folder, name), "\n".join(lines) + "\n", found)
+    return _kept(Path(folder, name), "".join(digests(found)), found)
 
 
 def copy_of(folder: str | os.PathLike[str], path: str | os.PathLike[str]) -> str:
@@ -123,39 +92,3 @@ def check_records(folder: str | os.PathLike[str]) -> None:
                 f"Snakemake's record {path} is damaged: delete all of them (rm -r {os.fspath(folder)}) and run again; "
                 "results stay, and are checked against the config when they are collected"
             ) from error
-
-
-def _file(module: str) -> Path:
-    path = _find(module)
-    if path is None:
-        raise ModuleNotFoundError(f"{module} is not a module of rubfric", name=module)
-    return path
-
-
-def _find(module: str) -> Path | None:
-    """Return the file of a module of the package; None for any other name, packages among them."""
-    first, *rest = module.split(".")
-    if first != _PACKAGE.name or not rest:
-        return None
-    path = _PACKAGE.joinpath(*rest).with_suffix(".py")
-    return path if path.is_file() else None
-
-
-@cache
-def _imported(path: Path) -> list[Path]:
-    names: list[str] = []
-    for node in _statements(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            # "from rubfric import dataset" names a module, "from rubfric.simulation import evaluate" does not.
-            names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    return [found for found in map(_find, names) if found is not None]
-
-
-def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield the statements below a node; not their expressions, which are many and import nothing."""
-    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-        for statement in getattr(node, part, ()):
-            yield statement
-            yield from _statements(statement)

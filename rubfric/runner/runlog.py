@@ -21,10 +21,10 @@ from snakemake.logging import get_event
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from rubfric.errors import NotWritten
+from rubfric.progress import Failure, Progress, amounts, coarse, duration
 from rubfric.runner.findings import findings
 from rubfric.runner.lines import Lines
 from rubfric.runner.made import Made
-from rubfric.runner.progress import Failure, Progress, amounts, coarse, duration
 from rubfric.runner.times import record, shares
 
 # Time between two lines: a twentieth of the time so far, within these bounds, s.

@@ -99,6 +99,13 @@ class ArealScene:
     def __post_init__(self) -> None:
         check_fields(self)
 
+    def __repr__(self) -> str:
+        warm = "" if self.temperature is None else f", {self.temperature:g} degC"
+        return (
+            f"<ArealScene: {self.velocity:g} mm/s, {self.pressure:g} MPa{warm}, rubber {self.material.name}, "
+            f"{self.direction:g} degrees, friction to {100.0 * self.numerics.accuracy:g} %, {self.road!r}>"
+        )
+
     @property
     def wavelength(self) -> float:
         """Longest wavelength of the road, mm; of a flat one its longer period."""

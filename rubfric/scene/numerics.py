@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated, Any
 
 from rubfric.rules import Choice, Integer, Number, check_fields
@@ -109,6 +109,12 @@ class Numerics:
         check_fields(self, "numerics.")
         fewest = max(self.columns_min, self.finite_columns_min)
         Integer(low=fewest).check("numerics.columns_max", self.columns_max)
+
+    def __repr__(self) -> str:
+        """Accuracy, and what is not as by default."""
+        own = [(each.name, getattr(self, each.name), each.default) for each in fields(self)]
+        changed = "".join(f", {name}={value!r}" for name, value, usual in own[1:] if value != usual)
+        return f"Numerics(accuracy={self.accuracy!r}{changed})"
 
 
 # The mesh of fineness 1: others have so many times as many nodes and columns, and rows that grow so much slower.

@@ -117,6 +117,13 @@ class Scene:
         warm = "" if self.temperature is None else f"_T{checks.written(self.temperature)}"
         return f"{scale}_v{velocity}_p{pressure}{warm}_aspect{aspect}_{self.plane}"
 
+    def __repr__(self) -> str:
+        warm = "" if self.temperature is None else f", {self.temperature:g} degC"
+        return (
+            f"<Scene {self.name}: {self.velocity:g} mm/s, {self.pressure:g} MPa{warm}, rubber {self.material.name}, "
+            f"{self.kinematics} kinematics, friction to {100.0 * self.numerics.accuracy:g} %, {self.road!r}>"
+        )
+
     @property
     def height(self) -> float:
         """H = aspect x wavelength, that of the coarsest wave, mm."""

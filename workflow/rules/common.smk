@@ -18,7 +18,7 @@ from rubfric.config.models import AS_CONFIGURED
 from rubfric.pages.render import assets
 from rubfric.runner.leftovers import remove_leftovers
 from rubfric.runner.opening import Costs, understood
-from rubfric.runner.progress import kind
+from rubfric.progress import kind
 from rubfric.runner.runlog import RunLog, attach
 from rubfric.runner.reruns import copy_of, stamp, stamp_files
 from rubfric.scene.scene import ALL

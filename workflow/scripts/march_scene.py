@@ -10,10 +10,10 @@ from rubfric.marching import march
 from rubfric.mechanics.march.result import Transient
 from rubfric.results.dataset import write
 from rubfric.results.march import build
-from rubfric.runner.reruns import sources
 from rubfric.scene.procedure import Procedure
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
+from rubfric.sources import sources
 
 
 def main(output: str, parameters: dict[str, Any], procedure: dict[str, Any]) -> None:

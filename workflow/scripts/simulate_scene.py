@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from rubfric.results.dataset import write
+from rubfric.results.dataset import read, write
+from rubfric.results.kept import take_up
 from rubfric.results.summary import summary
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
@@ -18,6 +19,10 @@ def main(output: str, parameters: dict[str, Any]) -> None:
     parameters : dict
         Those of the ``Scene``.
     """
-    result = simulate(Scene.from_parameters(parameters))
-    write(result, output)
+    scene = Scene.from_parameters(parameters)
+    if take_up(output, scene):
+        result = read(output)
+    else:
+        result = simulate(scene)
+        write(result, output)
     print(summary(result))

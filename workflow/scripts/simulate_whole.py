@@ -4,6 +4,7 @@ from typing import Any
 
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.dataset import write
+from rubfric.results.kept import take_up
 from rubfric.results.provenance import refusal
 from rubfric.results.selection import NOT_NEEDED
 from rubfric.results.summary import summary
@@ -29,6 +30,9 @@ def main(output: str, parameters: dict[str, Any], road: dict[str, Any]) -> None:
     if way != "direct":
         write(refusal(scene, NOT_NEEDED + way), output)
         print(NOT_NEEDED + way)
+        return
+    if take_up(output, scene):
+        print("Solved by rubfric run or rubfric friction before")
         return
     try:
         result = simulate(scene)

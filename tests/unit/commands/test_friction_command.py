@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
 import rubfric
-from rubfric import cli, total_simulation
+from rubfric import cli, scene_jobs, total_simulation
 from rubfric.errors import InvalidInput
-from rubfric.results.dataset import write
+from rubfric.results import kept, totals
+from rubfric.results.dataset import read, write
+from rubfric.results.kept import take_up
 from rubfric.scene.scene import ALL, Scene
 from rubfric.simulation import simulate
 
+ROAD = [{"amplitude": 0.5, "wavelength": 10.0}, {"amplitude": 0.05, "wavelength": 1.0}]
 POINT = ["friction", "--velocity", "100", "--pressure", "0.5"]
 
 
@@ -37,7 +41,7 @@ def test_prints_the_sum_over_the_scales_with_its_errors(config: Path, capsys: py
     assert cli.main([*POINT, "--config", str(config)]) == 0
     out, err = capsys.readouterr()
     first, *_ = results
-    assert err == f"rubfric: solving 1 of 1: {first}\n"
+    assert re.fullmatch(rf"rubfric: 1 of 1 scene; slowest {re.escape(first)} [0-9.]+ s\n", err)
     assert f"{expected:.4g}" in out.splitlines()[3].split()
     shares = [float(word[:-1]) for word in out.splitlines()[3].split() if word.endswith("%")]
     assert len(shares) == 4
@@ -45,7 +49,9 @@ def test_prints_the_sum_over_the_scales_with_its_errors(config: Path, capsys: py
     assert "no error covers: data of rubber zhou2019; other phases of road zhou2019; finite strain\n" in out
 
     assert cli.main([*POINT, "--config", str(config), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    out, err = capsys.readouterr()
+    assert not err  # all is known
+    found = json.loads(out)
     assert found["rows"][0]["friction_total"] == pytest.approx(expected, rel=1e-12)
     assert found["rows"][0]["friction_road_error"] is None
     assert found["rows"][0]["way"] == "sum"
@@ -65,9 +71,74 @@ def test_files_that_do_not_fit_are_solved_anew(config: Path) -> None:
         write(simulate(scene if place else campaign.scene(2, 100, 0.5)), folder / f"{name}.nc")
     damaged = folder / f"{list(scenes)[1]}.nc"
     damaged.write_bytes(damaged.read_bytes()[:-1] + b"!")
-    solved: list[str] = []
-    rubfric.friction(campaign, [100], [0.5], progress=solved.append)
-    assert solved == [f"solving {place} of 2: {name}" for place, name in enumerate(list(scenes)[:2], 1)]
+    lines: list[str] = []
+    rubfric.friction(campaign, [100], [0.5], progress=lines.append)
+    assert [line.partition(";")[0] for line in lines] == ["1 of 2 scenes", "2 of 2 scenes"]
+    lines.clear()
+    known = rubfric.run(campaign, [100], [0.5], progress=lines.append)
+    assert not lines
+    (answer,) = (path for path in config.parent.glob(".cache/*/*.nc") if re.fullmatch("[0-9a-f]{16}.nc", path.name))
+    answer.write_bytes(answer.read_bytes()[:-1] + b"!")
+    assert rubfric.run(campaign, [100], [0.5], progress=lines.append).identical(known)
+    assert not lines
+
+
+def test_dataset_holds_the_table_and_every_scale(config: Path) -> None:
+    campaign = rubfric.load(config, {"road": "two", "roads": {"two": ROAD}})
+    found = campaign.run([100, 10], [0.5], jobs=1, progress=False)
+    table = rubfric.friction(campaign, [10, 100], [0.5])
+    assert dict(found.sizes) == {"pressure": 1, "velocity": 2, "scale": 2}
+    assert found["friction_total"].values.ravel().tolist() == table["friction_total"].tolist()
+    assert list(table.columns[:5]) == [*totals.AXES, *totals.TOTAL, "way"]
+    assert found["friction_scale"].sel(scale=2).values.ravel().tolist() == table["friction_scale_2"].tolist()
+    assert found["friction_scale"].sum("scale").values == pytest.approx(found["friction_sum"].values, rel=1e-14)
+    assert found["friction_scale_error"].sum("scale").values == pytest.approx(found["friction_numerical_error"].values)
+    assert found["wavelength"].values == pytest.approx([10.0, 1.0])
+    assert set(found["way"].values.ravel()) == {"sum"}
+    assert found["velocity"].attrs["units"] == "mm s-1"
+    assert found.attrs["road"] == "two"
+    assert json.loads(found.attrs["material"])["name"] == "zhou2019"
+
+
+def test_workers_find_what_one_process_does(config: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    changes = {"multiscale": "auto", "road": "one", "roads": {"one": ROAD[:1]}}
+    alone = rubfric.friction(rubfric.load(config, changes), [10, 100], [0.5], jobs=1)
+    monkeypatch.setattr(scene_jobs, "_ALONE", 0.0)
+    monkeypatch.setattr(scene_jobs, "_FIRST", 0)
+    elsewhere = rubfric.load(config, changes, {"results": str(tmp_path / "elsewhere")})
+    lines: list[str] = []
+    together = rubfric.friction(elsewhere, [10, 100], [0.5], jobs=2, progress=lines.append)
+    assert lines[-1].startswith("2 of 2 scenes, 2 of 2 scenes of the whole road; slowest ")
+    pd.testing.assert_frame_equal(together, alone, rtol=1e-9)
+
+
+def test_workflow_takes_up_what_is_kept_and_nothing_else(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    campaign = rubfric.load(config, {"multiscale": "direct", "road": "one", "roads": {"one": ROAD[:1]}})
+    campaign.run([100], [0.5], jobs=1, progress=False)
+    results = config.parent
+    asked = total_simulation.at_points(campaign, [100], [0.5])
+    for place, scenes in (("scenes", asked.scenes()), ("whole", asked.whole_scenes())):
+        for name, scene in scenes.items():
+            output = results / place / "zhou2019" / "one" / f"{name}.nc"
+            assert take_up(output, scene)
+            assert read(output, scene.digest).attrs["scene"] == name
+    assert not take_up(output, campaign.scene(1, 101, 0.5))
+    monkeypatch.setattr(kept, "code", lambda module: "of another version")
+    assert not take_up(output, scene)
+
+
+def test_scene_that_is_refused_is_named(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(scene: Scene) -> object:
+        raise InvalidInput("the load is too light")
+
+    monkeypatch.setattr(scene_jobs, "simulate", refused)
+    with pytest.raises(InvalidInput, match=r"^scale1_v100_p0\.5_aspect0\.75_stress: the load is too light$"):
+        rubfric.friction(rubfric.load(config), [100], [0.5])
+
+
+def test_folder_that_cannot_be_written_is_done_without(config: Path) -> None:
+    campaign = rubfric.load(config, {"results": "/dev/null/results", "road": "one", "roads": {"one": ROAD[:1]}})
+    assert rubfric.friction(campaign, [100], [0.5])["way"].tolist() == ["sum"]
 
 
 def test_corrected_sum_stands_in_for_a_whole_road_without_solution(
@@ -78,7 +149,7 @@ def test_corrected_sum_stands_in_for_a_whole_road_without_solution(
             raise InvalidInput("no solution")
         return simulate(scene)
 
-    monkeypatch.setattr(total_simulation, "simulate", refused)
+    monkeypatch.setattr(scene_jobs, "simulate", refused)
     table = rubfric.friction(rubfric.load(config, {"multiscale": "direct"}), [100], [0.5])
     assert table["way"][0] == "corrected"
     assert table["note"][0].endswith("was refused: no solution")
@@ -92,7 +163,7 @@ def test_every_temperature_is_a_row(config: Path) -> None:
         {
             "rubbers": {"zhou2019": {"shift": shift}},
             "road": "one",
-            "roads": {"one": [{"amplitude": 0.5, "wavelength": 10.0}]},
+            "roads": {"one": ROAD[:1]},
         },
     )
     table = rubfric.friction(campaign, [100], [0.5], [60, 20])

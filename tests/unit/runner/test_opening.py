@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from rubfric.config.campaign import load
+from rubfric.progress import Progress, kind
 from rubfric.runner.opening import Costs, understood
-from rubfric.runner.progress import Progress, kind
 
 CONFIG = Path(__file__).resolve().parents[3] / "config" / "config.yaml"
 OWN = """

@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 import rubfric
-import rubfric.runner.reruns
+import rubfric.sources
 from rubfric.errors import BrokenResult
-from rubfric.runner.reruns import check_records, sources, stamp
+from rubfric.runner.reruns import check_records, stamp
+from rubfric.sources import sources
 
 PACKAGE = Path(rubfric.__file__).resolve().parent
 MODULES = [
@@ -87,14 +88,14 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name, text in (("first", "from rubfric.second import this\n"), ("second", "this = 1\n"), ("third", "")):
         (folder / f"{name}.py").write_text(text)
         os.utime(folder / f"{name}.py", (1e9, 1e9))
-    monkeypatch.setattr("rubfric.runner.reruns._PACKAGE", folder)
+    monkeypatch.setattr("rubfric.sources.PACKAGE", folder)
     forget()
     return folder
 
 
 def forget() -> None:
     """Let the next call read the files anew, as another run does."""
-    for function in (sources, stamp, rubfric.runner.reruns._imported):
+    for function in (sources, stamp, rubfric.sources._imported):
         function.cache_clear()
 
 

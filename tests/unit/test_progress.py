@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rubfric.runner.progress import Progress, amounts, duration, kind
+from rubfric.progress import Progress, amounts, duration, kind
 
 
 class Clock:
