@@ -8,7 +8,7 @@ import pytest
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.remote.webdriver import WebDriver
-from visit import console_errors, outside, requested_addresses, resize
+from visit import colours, console_errors, outside, requested_addresses, resize, violations
 
 import rubfric
 from rubfric.areal_plane import slide_profiles
@@ -53,6 +53,10 @@ def test_contact_follows_speed_and_pressure(browser: WebDriver, tmp_path: Path) 
     for width in (390, 800, 1400):
         resize(browser, width, 900)
         assert browser.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
+    for dark in (False, True):
+        colours(browser, dark=dark)
+        assert violations(browser) == []
+    colours(browser)
     assert console_errors(browser) == []
     addresses = [one for one in outside(requested_addresses(browser)) if not one.startswith("chrome")]  # its first tab
     assert addresses == []

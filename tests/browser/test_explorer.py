@@ -161,7 +161,7 @@ def test_clicking_shows_a_scene(browser: WebDriver, whole: Any) -> None:
 def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole: Any) -> None:
     open_explorer(browser, whole.path, "scale=total&view=curves&pressure=0.5&speed=1", fresh=True)
     reached = []
-    for _ in range(5):
+    for _ in range(14):
         ActionChains(browser).send_keys(Keys.TAB).perform()
         reached.append(focused(browser))
         outline = browser.execute_script(
@@ -169,11 +169,13 @@ def test_everything_is_reached_and_chosen_by_keyboard(browser: WebDriver, whole:
             "return [document.activeElement, seen].some((one) => getComputedStyle(one).outlineStyle !== 'none')"
         )
         assert outline, reached[-1]
-    assert reached == ["place", "view", "chart", "pressure", "speed"]
+    assert reached[:9] == ["place", "view", "unit", "chart", "pressure", "play", "speed", "chart-png", "chart-csv"]
+    assert reached[9:] == ["small wide", "small", "small", "scene-png", "scene-csv"]
+    browser.execute_script("document.getElementById('speed').focus()")
     press(browser, Keys.HOME)
     press(browser, Keys.ARROW_RIGHT)
     assert "speed=100" in settled(browser)
-    ActionChains(browser).key_down(Keys.SHIFT).send_keys(Keys.TAB).key_up(Keys.SHIFT).perform()
+    ActionChains(browser).key_down(Keys.SHIFT).send_keys(Keys.TAB, Keys.TAB).key_up(Keys.SHIFT).perform()
     press(browser, Keys.ARROW_RIGHT)
     assert "pressure=5" in settled(browser)
     browser.execute_script("document.querySelector('input[name=place]:checked').focus()")

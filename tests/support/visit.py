@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import axe_core_python
 from selenium.webdriver import Chrome, ChromeOptions
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.remote.webdriver import WebDriver
@@ -39,7 +40,9 @@ def start(profile: Path) -> WebDriver:
     if os.geteuid() == 0:
         options.add_argument("--no-sandbox")
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return Chrome(options=options, service=Service(CHROMEDRIVER))
+    browser = Chrome(options=options, service=Service(CHROMEDRIVER))
+    browser.set_script_timeout(120)  # on a machine that does much else too
+    return browser
 
 
 def resize(browser: WebDriver, width: int, height: int, touch: bool = False) -> None:
@@ -161,3 +164,25 @@ def traces(browser: WebDriver, plot: str) -> list[dict[str, Any]]:
     """
     found: list[dict[str, Any]] = browser.execute_script(script, plot)
     return found
+
+
+def violations(browser: WebDriver) -> list[str]:
+    """Return what axe-core finds against WCAG and good practice, contrast included: rule, count and first place."""
+    browser.execute_script(Path(axe_core_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8"))
+    script = """
+    const done = arguments[arguments.length - 1];
+    const words = ({ html, failureSummary }) => `${html.slice(0, 120)} ${failureSummary.slice(0, 300)}`;
+    axe.run({ resultTypes: ["violations"] }).then((found) => done(found.violations.map(
+      ({ id, nodes }) => `${id} at ${nodes.length}: ${words(nodes[0])}`))).catch((error) => done([String(error)]));
+    """
+    return list(browser.execute_async_script(script))
+
+
+def colours(browser: WebDriver, dark: bool = False, still: bool = False) -> None:
+    """Have a visitor who prefers dark colours, or as little motion as can be."""
+    preferred = {
+        "prefers-color-scheme": "dark" if dark else "light",
+        "prefers-reduced-motion": "reduce" if still else "",
+    }
+    features = [{"name": name, "value": value} for name, value in preferred.items()]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})

@@ -2,6 +2,8 @@
 EXPLORED = {
     name: scene for name, scene in SCENES.items() if scene.aspect == CAMPAIGN.aspect
 }
+# Those of a comparison that its friction is shown beside.
+BESIDE = [pair for pair in PAIR_TABLES if pair != (RUBBER, ROAD)]
 
 
 rule explorer:
@@ -12,6 +14,7 @@ rule explorer:
         campaign=rules.campaign.output[0],
         table=rules.total_table.output.table,
         whole=WHOLE_COLLECTION,
+        pairs=[PAIR_TABLES[pair] for pair in BESIDE],
         scenes=[
             *(scene_file(name) for name in EXPLORED),
             *(whole_file(name) for name in WHOLE),
@@ -35,6 +38,9 @@ rule explorer:
             ],
             "roads": [road_number(name) for name in [*EXPLORED, *WHOLE]],
             "shown": TEMPERATURE,
+            "others": [
+                (*pair, PAIR_TABLES[pair], COLLECTED_OF[pair]) for pair in BESIDE
+            ],
         },
     message:
         "The campaign to explore in a browser: {output}"

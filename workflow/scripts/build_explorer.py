@@ -12,6 +12,7 @@ from rubfric.pages.explorer.roads import NUMBER
 from rubfric.pages.render import write_page
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
+from rubfric.results.pair import read_pair
 from rubfric.results.scales import WORDS
 from rubfric.results.selection import REFUSAL
 from rubfric.results.tables import read_table
@@ -31,6 +32,7 @@ def main(
     temperatures: list[float | None],
     roads: list[int],
     shown: float | None,
+    others: list[tuple[str, str, str, str]],
 ) -> None:
     """Write the page.
 
@@ -59,7 +61,11 @@ def main(
         Of each result, degC; a rubber as it is given has none.
     shown : float or None
         The temperature with which the page begins.
+    others : list
+        Rubber, road, path of the table of totals (CSV), and what its scenes are known by, of the other pairs of a
+        comparison.
     """
+    pairs = {f"{rubber} on {way}": read_pair(path, known) for rubber, way, path, known in others}
     table_of_all = read_table(table, WORDS)
     of_road = collection.read(whole[0], collected[1]) if whole else None
     gathered = collection.read(campaign, collected[0])
@@ -79,8 +85,9 @@ def main(
             road,
             None if of_road is None else at_temperature(of_road, one),
             1.0 / len(set(temperatures)),
+            {name: rows_at(pair, one) for name, pair in pairs.items()},
         )
-    write_page(page(together(payloads, shown)), output)
+    write_page(page(together(payloads, shown), "index.html"), output)
 
 
 def read(path: str, digest: str, number: int) -> Iterator[xr.Dataset]:

@@ -1,22 +1,7 @@
 "use strict";
-// The deformed block on the road: its numbers unpacked, its field as an image, and the plot around it.
+// The deformed block on the road: its field as an image, and the plot around it.
 
-const STEPS = 65535;
-const TOUCH = "#e8601c", ROAD = "#ecebe7", ROAD_LINE = "#8b8a86", INK = "#1d2129";
-
-/** The numbers of all pictures: inflated, their bytes joined, their differences summed. */
-async function unpack(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const inflated = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const bytes = new Uint8Array(await new Response(inflated).arrayBuffer());
-  const count = bytes.length / 2;
-  const numbers = new Uint16Array(count);
-  for (let place = 0, last = 0; place < count; place += 1) {
-    last = (last + (bytes[place] << 8) + bytes[count + place]) & STEPS;
-    numbers[place] = last;
-  }
-  return numbers;
-}
+const STEPS = 16383;
 
 /** A picture in its units (mm, MPa; energies as decimal logarithms). */
 function opened(numbers, about) {
@@ -61,11 +46,11 @@ function roadLine(scale, frame, count = scale.period ? 1500 : 240) {
 
 /** 256 colours of a map, as the words of an image. */
 function shades(stops) {
-  const parts = stops.map((stop) => [1, 3, 5].map((from) => parseInt(stop.slice(from, from + 2), 16)));
+  const hues = stops.map(parts);
   return Uint32Array.from({ length: 256 }, (_, shade) => {
-    const at = (shade / 255) * (parts.length - 1);
-    const low = Math.min(Math.floor(at), parts.length - 2);
-    const [red, green, blue] = parts[low].map((part, hue) => Math.round(part + (at - low) * (parts[low + 1][hue] - part)));
+    const at = (shade / 255) * (hues.length - 1);
+    const low = Math.min(Math.floor(at), hues.length - 2);
+    const [red, green, blue] = hues[low].map((part, hue) => Math.round(part + (at - low) * (hues[low + 1][hue] - part)));
     return (255 << 24) | (blue << 16) | (green << 8) | red;
   });
 }
@@ -135,17 +120,17 @@ function paintSmall(picture, scale, frame, width, colours, energies, net = false
   const road = roadLine(scale, frame);
   pen.beginPath();
   trace([frame.left, ...road.x, frame.right], [frame.bottom, ...road.y, frame.bottom]);
-  pen.fillStyle = ROAD;
+  pen.fillStyle = INKS.road;
   pen.fill();
   pen.lineWidth = 2.5;
   for (const row of [0, picture.rows - 1]) {
     const nodes = row * picture.columns;
     pen.beginPath();
     trace(picture.x.slice(nodes, nodes + picture.columns), picture.y.slice(nodes, nodes + picture.columns));
-    pen.strokeStyle = INK;
+    pen.strokeStyle = INKS.ink;
     pen.stroke();
   }
-  pen.strokeStyle = TOUCH;
+  pen.strokeStyle = INKS.touch;
   pen.lineWidth = 8;
   pen.lineCap = "round";
   broken(contactLine(picture, scale));
@@ -189,17 +174,17 @@ function blockPlot(picture, scale, frame, colours, energies, width) {
     line(netLines(picture), { color: "rgba(255,255,255,0.55)", width: 1 }, { visible: picture.finite && !scale.period }),
     line(
       { x: [frame.left, ...road.x, frame.right], y: [frame.bottom, ...road.y, frame.bottom] },
-      { color: ROAD_LINE, width: 1 },
-      { fill: "toself", fillcolor: ROAD, fillpattern: { shape: "/", fgcolor: "#c9c7c1", bgcolor: ROAD, size: 7, solidity: 0.12 } },
+      { color: INKS.roadLine, width: 1 },
+      { fill: "toself", fillcolor: INKS.road, fillpattern: { shape: "/", fgcolor: INKS.hatch, bgcolor: INKS.road, size: 7, solidity: 0.12 } },
     ),
-    line(face(0), { color: INK, width: 1.4 }),
-    line(face(picture.rows - 1), { color: INK, width: 1.4 }),
-    { ...touch, mode: "lines+markers", line: { color: TOUCH, width: thick, simplify: false }, marker: { color: TOUCH, size: thick - 1 }, hoverinfo: "skip" },
+    line(face(0), { color: INKS.ink, width: 1.4 }),
+    line(face(picture.rows - 1), { color: INKS.ink, width: 1.4 }),
+    { ...touch, mode: "lines+markers", line: { color: INKS.touch, width: thick, simplify: false }, marker: { color: INKS.touch, size: thick - 1 }, hoverinfo: "skip" },
     hoverNodes(picture, frame),
     {
       x: Array.from(picture.touching), y: Array.from(picture.pressure), yaxis: "y2", mode: "lines", fill: "tozeroy",
-      line: { color: TOUCH, width: 1.5, simplify: false }, fillcolor: "rgba(232,96,28,0.22)",
-      hovertemplate: "contact pressure %{y:.3g} MPa<br>at %{x:.3g} mm<extra></extra>",
+      line: { color: INKS.touch, width: 1.5, simplify: false }, fillcolor: translucent(INKS.touch, 0.22),
+      hovertemplate: "contact pressure %{y:.3g} MPa, per undeformed area<br>at %{x:.3g} mm<extra></extra>",
     },
   ];
   return { traces, layout: blockLayout(picture, frame, field, width) };
@@ -227,7 +212,7 @@ function blockLayout(picture, frame, field, width) {
   const tall = (wide * (frame.top - frame.bottom)) / (frame.right - frame.left);
   const [gap, profile] = [14, 70];
   const inner = tall + gap + profile;
-  const axis = { zeroline: false, showgrid: false, ticks: "outside", ticklen: 4, tickcolor: "#b6b4ae", linecolor: "#b6b4ae" };
+  const axis = { zeroline: false, showgrid: false, ticks: "outside", ticklen: 4, tickcolor: INKS.rule, linecolor: INKS.rule };
   const title = (text) => ({ text, standoff: 6, font: { size: 12 } });
   return {
     ...LOOK, margin, width, height: inner + margin.t + margin.b, showlegend: false, hovermode: "closest", dragmode: ZOOMS ? "zoom" : false,
@@ -238,7 +223,7 @@ function blockLayout(picture, frame, field, width) {
     },
     yaxis2: {
       ...axis, domain: [0, profile / inner], range: [0, 1.12 * Math.max(...picture.pressure, 1e-12)],
-      title: title("MPa"), nticks: 3, fixedrange: true, showgrid: true, gridcolor: "#eeece7",
+      title: title("MPa"), nticks: 3, fixedrange: true, showgrid: true, gridcolor: INKS.grid,
     },
     images: [{
       source: field.toDataURL(), xref: "x", yref: "y", x: frame.left, y: frame.top, sizex: frame.right - frame.left,

@@ -16,7 +16,7 @@ from rubfric.pages.explorer.palette import palette
 from rubfric.pages.explorer.pictures import WIDER
 from rubfric.pages.explorer.roads import about, pictured, whole_error
 from rubfric.pages.explorer.scenes import ERROR, FRICTION, SCALARS, cells, numbers, pictures, plain
-from rubfric.pages.explorer.totals import WHOLE, by_way, on_axes, reasons
+from rubfric.pages.explorer.totals import WHOLE, beside, by_way, on_axes, reasons
 from rubfric.results.selection import DRAWS, check_variables, find_peak, position
 
 _ABOUT = ("rubber", "plane", "kinematics", "source", "references")
@@ -33,6 +33,7 @@ def payload(
     road: str,
     whole: xr.Dataset | None = None,
     share: float = 1.0,
+    others: Mapping[str, pd.DataFrame] | None = None,
 ) -> dict[str, Any]:
     """Return all that the page shows.
 
@@ -53,6 +54,8 @@ def payload(
         The collection of the scenes of the whole road, results of which may be among ``results``.
     share : float
         Of the room for pictures, where several payloads share a page.
+    others : mapping of str to pandas.DataFrame, optional
+        Tables of totals of the other rubbers and roads of a comparison, by what they are called.
 
     Returns
     -------
@@ -86,6 +89,9 @@ def payload(
     store, energies, roads, refused = pictures(results, axes, scenes, aspect, thinned)
     if whole is not None:
         found[WHOLE] = about(whole, roads, refused)
+    for name, other in (others or {}).items():
+        friction, error = beside(other, axes)
+        found.setdefault("others", []).append({"name": name, "friction": plain(friction), "error": plain(error)})
     return {
         "about": {name: str(campaign.attrs.get(name, "unknown")) for name in _ABOUT}
         | {"road": road, "aspect": aspect, "accuracy": _accuracy(campaign)},
@@ -94,7 +100,7 @@ def payload(
         "scales": [_scale(grid.sel(scale=number)) for number in axes["scale"]],
         "curves": curves,
         "scenes": scenes,
-        "colours": palette(axes["pressure"].size, axes["scale"].size),
+        "colours": palette(axes["pressure"].size, axes["scale"].tolist()),
         "energies": energies,
         "pictures": store.packed(),
         **found,

@@ -10,7 +10,7 @@ let drawn = Promise.resolve();
 
 // ---- What is chosen, and the address that says so ----
 
-const chosen = { place: places[0], view: "curves", pressure: 0, speed: 0, road: 0, spot: null };
+const chosen = { place: places[0], view: "curves", unit, pressure: 0, speed: 0, road: 0, spot: null, beside: others(data).length > 2 ? [0] : others(data).map((_, order) => order) };
 
 /** The scene of highest friction at a place: what a visitor sees first. */
 function highestScene(place) {
@@ -30,62 +30,28 @@ function readAddress() {
   };
   if (places.includes(said.get("scale"))) chosen.place = said.get("scale");
   if (["curves", "map"].includes(said.get("view"))) chosen.view = said.get("view");
+  if (said.get("unit") in UNITS) chosen.unit = said.get("unit");
   const [pressure, speed] = [nearest(data.pressures, "pressure"), nearest(data.speeds, "speed")];
   if (pressure >= 0) chosen.pressure = pressure;
   if (speed >= 0) chosen.speed = speed;
+  if (said.has("with")) chosen.beside = said.get("with").split(",").map((one) => Number(one) - 1).filter((order) => order in others(data));
   const road = Number(said.get("road")) - 1;
   if (said.has("road") && road in severalRoads(data)) chosen.road = road;
 }
 
 function address(warm = temperatures[warmth]) {
-  const { place, view, pressure, speed } = chosen;
-  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${severalRoads(data).length ? `&road=${chosen.road + 1}` : ""}${addressed(warm)}`;
+  const { place, view, pressure, speed } = chosen, measure = chosen.unit === "mm/s" ? "" : `&unit=${chosen.unit}`;
+  return `#scale=${place}&view=${view}&pressure=${data.pressures[pressure]}&speed=${data.speeds[speed]}${measure}${severalRoads(data).length ? `&road=${chosen.road + 1}` : ""}${others(data).length ? `&with=${chosen.beside.map((order) => order + 1).join(",")}` : ""}${addressed(warm)}`;
 }
 
-/** Choose, within what there is, and draw; many choices in one frame are drawn once. */
-function choose(changes) {
+/** Choose, within what there is, and draw; many choices in one frame are drawn once. Who chooses a speed ends the play. */
+function choose(changes, played = false) {
+  if ("speed" in changes && !played) stopPlaying();
   Object.assign(chosen, changes);
   chosen.pressure = Math.min(data.pressures.length - 1, Math.max(0, chosen.pressure));
   chosen.speed = Math.min(data.speeds.length - 1, Math.max(0, chosen.speed));
   window.history.replaceState(null, "", address());
   if (!choose.waiting) choose.waiting = window.requestAnimationFrame(() => { choose.waiting = 0; draw(); });
-}
-
-// ---- Controls ----
-
-function makeControls() {
-  for (const place of places) {
-    const scale = data.scales.find(({ number }) => String(number) === place);
-    const label = scale ? [`${place}`, element("small", {}, `${rounded(scale.wavelength, 2)}${THIN}mm`)] : [{ total: "Total", whole: "Whole road" }[place]];
-    byId("places").append(option("place", place, ...label));
-  }
-  byId("views").append(option("view", "curves", "Curves"), option("view", "map", "Map"));
-  data.pressures.forEach((pressure, order) => byId("pressures").append(option("pressure", order, swatch(data.colours.pressures[order], DASHES[order % DASHES.length]), plain(pressure))));
-  byId("speed").max = data.speeds.length - 1;
-  byId("speed").disabled = data.speeds.length < 2;
-  byId("choices").addEventListener("change", ({ target }) => choose({ [target.name]: target.value }));
-  byId("scene-choices").addEventListener("input", ({ target }) => choose({ [target.name]: Number(target.value) }));
-  for (const form of document.forms) form.addEventListener("submit", (event) => event.preventDefault());
-  const steps = { ArrowLeft: ["speed", -1], ArrowRight: ["speed", 1], ArrowDown: ["pressure", -1], ArrowUp: ["pressure", 1] };
-  byId("chart").addEventListener("keydown", (event) => {
-    if (!(event.key in steps) || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    const [axis, step] = steps[event.key];
-    choose({ [axis]: chosen[axis] + step });
-  });
-  window.addEventListener("hashchange", () => { readAddress(); if (!otherTemperature()) choose({}); });
-  let width = window.innerWidth;
-  window.addEventListener("resize", () => { if (window.innerWidth !== width) { width = window.innerWidth; choose({}); } });
-}
-
-function showControls() {
-  byId("roads").hidden = !severalRoads(data).length || !["total", "whole"].includes(chosen.place);
-  for (const [name, value] of Object.entries(chosen)) {
-    for (const input of document.getElementsByName(name)) input.checked = input.value === String(value);
-  }
-  byId("speed").value = chosen.speed;
-  byId("speed").setAttribute("aria-valuetext", speedOf(data.speeds[chosen.speed]));
-  byId("speed-value").textContent = speedOf(data.speeds[chosen.speed]);
 }
 
 // ---- Words and numbers ----
@@ -128,86 +94,11 @@ function showWords() {
   byId("chart").setAttribute("aria-label", `${byId("chart-title").textContent}. ${keys}`);
 }
 
-// ---- Pictures ----
-
-const framed = new Map();
-
-/** The frame of a road: the same for all its scenes, so that they can be compared. */
-function frame(scale) {
-  if (!framed.has(scale.number)) {
-    const alike = scale.period && severalRoads(data).length ? severalRoads(data).map(({ number }) => number) : [scale.number];
-    const about = alike.flatMap((number) => data.scenes[number] ?? []).flat().map((scene) => scene?.picture).filter(Boolean);
-    framed.set(scale.number, frameOf(scale, about));
-  }
-  return framed.get(scale.number);
-}
-
-function pictureOf(scene) { return numbers && scene?.picture ? opened(numbers, scene.picture) : null; }
-
-function showScene(place) {
-  const scale = roadOf(place);
-  const scene = sceneAt(place);
-  const picture = pictureOf(scene);
-  byId("small-pictures").replaceChildren();
-  byId("energies").replaceChildren(...(picture ? energyScale(data.energies, data.colours.energy) : []));
-  byId("picture").hidden = !picture;
-  byId("spot").hidden = !(picture && scale.period);
-  byId("caption").replaceChildren();
-  byId("numbers").replaceChildren();
-  byId("warnings").replaceChildren(...warningsOf([[place, scene]]));
-  if (place === "whole" && severalRoads(data).length) byId("numbers").append(...roadsTable(data, chosen, scene));
-  if (scene) byId("numbers").append(sceneNumbers(scene));
-  if (!picture) return null;
-  const how = picture.finite
-    ? "Displacements are to scale; the white lines made squares before deformation."
-    : `Small strain: only vertical displacements are shown, to scale, without the mean compression of ${percent(scene.compression)}.`;
-  const hint = (ZOOMS ? " Drag to zoom, double click to see all again." : "") + (scale.period ? " Click on the block to magnify another spot." : "");
-  const seen = scale.period ? ` One period of the road, and the framed spot, ${rounded(scale.spot, 2)}${THIN}mm wide, magnified.` : "";
-  const drawn = place === "whole" && scale.draws ? ` The picture is of ${roadName(data, chosen.road)}.` : "";
-  byId("caption").replaceChildren(`The block slides to the right; orange where it touches the road, with the contact pressure below.${seen} ${how}${drawn}`,
-    element("span", { class: "fine" }, hint));
-  byId("picture").setAttribute("aria-label", `The deformed block on ${placeName(place).toLowerCase()} at ${sceneName()}, in contact on ${percent(scene.contact)} of its area.`);
-  const plot = blockPlot(picture, scale, frame(scale), colours, data.energies, byId("picture").clientWidth);
-  if (scale.period) {
-    const spot = spotFrame(scale, chosen.spot);
-    plot.layout.shapes = [spotShape(spot, frame(scale))];
-    byId("spot").replaceChildren(paintSmall(picture, scale, spot, 1100, colours, data.energies, true));
-  }
-  return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
-}
-
-function smallPicture(road) {
-  const { number, period } = road, name = period ? "whole road" : `scale ${number}`;
-  const place = period ? "whole" : String(number);
-  const picture = pictureOf(sceneAt(place));
-  const button = element("button", { type: "button", class: period ? "small wide" : "small", title: `Show ${period ? "the " : ""}${name}` });
-  if (picture) button.append(paintSmall(picture, road, frame(road), period ? 1400 : 320, colours, data.energies));
-  button.append(name);
-  button.addEventListener("click", () => { choose({ place }); byId("places").querySelector(`[value="${place}"]`).focus(); });
-  return button;
-}
-
-function showTotal() {
-  const pictured = data.whole && pictureOf(sceneAt("whole"));
-  const shown = [...data.scales.map(({ number }) => String(number)), ...(data.whole ? ["whole"] : [])];
-  const scenes = shown.map((place) => [place, sceneAt(place)]);
-  byId("small-pictures").replaceChildren(...[...(pictured ? [roadOf("whole")] : []), ...data.scales].map(smallPicture));
-  byId("energies").replaceChildren();
-  byId("caption").textContent = "Bars: each scale alone at this pressure, and the whole error of their sum. Diamonds: the total with its error. " +
-    "Pictures: the block on the whole road and on each scale, each in its own size, brighter where more energy is stored." +
-    (severalRoads(data).length ? ` The whole road in the picture is ${roadName(data, chosen.road)}.` : "");
-  byId("spot").hidden = true;
-  byId("numbers").replaceChildren(totalNumbers(data, chosen));
-  byId("warnings").replaceChildren(...warningsOf(scenes));
-  byId("picture").hidden = false;
-  byId("picture").setAttribute("aria-label", `Friction of each scale against speed at ${pressureOf(data.pressures[chosen.pressure])}, stacked, and the total; the table has the numbers.`);
-  const plot = barsPlot(data, chosen, byId("picture").clientWidth);
-  return Plotly.react("picture", plot.traces, plot.layout, CONFIG);
-}
-
 // ---- Drawing ----
 
 function draw() {
+  unit = chosen.unit;
+  showOthers(data, chosen);
   showControls();
   showWords();
   const chart = byId("chart");
@@ -216,6 +107,7 @@ function draw() {
   const charted = Plotly.react(chart, plot.traces, { ...plot.layout, ...size }, CONFIG);
   drawn = Promise.all([charted, chosen.place === "total" ? showTotal() : showScene(chosen.place)]).then(() => {
     for (const id of ["chart", "picture"]) listen(byId(id));
+    byId("numbers-card").hidden = !byId("numbers").children.length;
     document.body.dataset.shown = address();
   });
 }
@@ -236,13 +128,14 @@ async function begin() {
   Object.assign(chosen, { pressure: first.pressure, speed: first.speed });
   readAddress();
   if (data.whole?.windows) WAY_NAMES.direct = "the profile itself";
-  for (const make of [showAbout, makeControls, makeTemperatures, () => makeRoads(data)]) make();
+  for (const make of [showAbout, makeControls, makeTemperatures, makePlay, makeSaves, () => makeRoads(data), () => makeOthers(data)]) make();
   document.querySelector("main").hidden = false;
   try {
-    numbers = await unpack(data.pictures);
+    [numbers] = await Promise.all([unpack(data.pictures), loadLibrary()]);
   } catch {
     byId("notice").hidden = false;
-    byId("notice").textContent = "This browser cannot unpack the pictures of the block; Chrome 80, Firefox 113, Safari 16.4 and later can.";
+    byId("notice").textContent = "This browser cannot unpack the charts and the pictures of the block; Chrome 80, Firefox 113, Safari 16.4 and later can.";
+    return;
   }
   choose({});
 }

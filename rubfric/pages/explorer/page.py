@@ -8,16 +8,27 @@ from typing import Any
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from rubfric.pages.explorer.pictures import deflated
 from rubfric.pages.render import assets, render
 
 
-def page(payload: dict[str, Any]) -> str:
-    """Return the page that shows a payload (of ``rubfric.pages.explorer.data``), or one of several temperatures."""
+def page(payload: dict[str, Any], home: str | None = None) -> str:
+    """Return the page of a campaign.
+
+    Parameters
+    ----------
+    payload : dict
+        As from ``rubfric.pages.explorer.data.payload``, or ``together`` of several temperatures.
+    home : str, optional
+        Where the page of all results is, relative to this one.
+    """
     about = payload.get("pages", [payload])[0]["about"]
     return render(
         "explorer/template.html",
         title=f"Friction of rubber {about['rubber']} on road {about['road']}",
-        library=Markup(get_plotlyjs()),
+        home=home,
+        lead="Every scene of a campaign: its friction, its deformed block, its numbers.",
+        library=deflated(get_plotlyjs().encode()),
         payload=Markup(_embedded(payload)),
         scripts=[path.name for path in assets("explorer") if path.suffix == ".js"],
     )

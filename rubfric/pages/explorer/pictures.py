@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 
 # What a picture needs of a result.
 NEEDED = (*VARIABLES, "surface_position", "contact_pressure")
-# Numbers are stored in steps of the range that they span.
-STEPS = 65535
+# Numbers are stored in steps of the range that they span: a hundredth of a pixel of a picture.
+STEPS = 16383
 # Width of the picture in wavelengths, and the points of the contact that it keeps of each.
 _WIDTH, _TOUCHING = 1.25, 190
 # The whole road keeps this many times as many columns as a scale, and lines of the net to a coarsest wavelength.
@@ -70,7 +70,12 @@ class Store:
         everything = np.concatenate([np.zeros(1, np.uint16), *self.values])
         differences = np.diff(everything)  # modulo 2**16
         split = np.concatenate([differences >> 8, differences & 255]).astype(np.uint8)
-        return base64.b64encode(zlib.compress(split.tobytes(), 9)).decode("ascii")
+        return deflated(split.tobytes())
+
+
+def deflated(values: bytes) -> str:
+    """Return bytes as text that the page inflates: deflated, in base 64."""
+    return base64.b64encode(zlib.compress(values, 9)).decode("ascii")
 
 
 def picture(result: xr.Dataset, rows: int, columns: int) -> Picture:

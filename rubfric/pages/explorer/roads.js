@@ -32,14 +32,14 @@ function roadAlone(data, { road, pressure, speed }) {
 
 /** Friction on each of several roads at the chosen pressure: a circle each, filled and joined by a line for the chosen one. */
 function roadPoints(data, chosen) {
-  const colour = data.colours.pressures[chosen.pressure];
+  const colour = pressureColour(data, chosen.pressure);
   return severalRoads(data).map(({ number }, road) => {
     const scenes = (data.scenes[number] ?? [])[chosen.pressure] ?? [];
     const strong = road === chosen.road;
     return {
       x: data.speeds, y: data.speeds.map((_, speed) => scenes[speed]?.friction ?? null), name: roadName(data, road), connectgaps: false,
-      mode: strong ? "lines+markers" : "markers", line: { color: "#1d2129", width: 1.2, dash: "1px,3px" },
-      marker: { symbol: strong ? "circle" : "circle-open", size: strong ? 7 : 6, color: strong ? "#1d2129" : colour, line: { width: 1.3, color: strong ? "#1d2129" : colour } },
+      mode: strong ? "lines+markers" : "markers", line: { color: INKS.ink, width: 1.2, dash: "1px,3px" },
+      marker: { symbol: strong ? "circle" : "circle-open", size: strong ? 7 : 6, color: strong ? INKS.ink : colour, line: { width: 1.3, color: strong ? INKS.ink : colour } },
       customdata: data.speeds.map((_, speed) => [chosen.pressure, speed, road]),
       text: data.speeds.map((speed, at) => (scenes[at] ? [sentence(roadName(data, road)).slice(0, -1),
         `${speedOf(speed)}, ${pressureOf(data.pressures[chosen.pressure])}`, ...sceneWords(scenes[at])].join("<br>") : "")),
@@ -60,7 +60,7 @@ function roadsTable(data, chosen, shown) {
   });
   const { friction, error } = data.curves.whole, mean = data.scenes.whole[pressure][speed];
   rows.push(row("mean", [measured(friction[pressure][speed], error[pressure][speed]), mean ? percent(mean.contact) : "", mean ? rounded(mean.largest) : ""]));
-  const head = element("tr", {}, ...["", "μ", "contact", "largest MPa"].map((name) => element("th", { scope: "col" }, name)));
+  const head = element("tr", {}, ...["", "μ", "contact", "largest contact pressure per undeformed area (MPa)"].map((name) => element("th", { scope: "col" }, name)));
   const table = element("div", { class: "scroll" }, element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows)));
   return shown ? [table, element("h2", { class: "below" }, `The numbers of ${roadName(data, chosen.road)}`)] : [table];
 }

@@ -9,14 +9,14 @@ function entry(term, value, remark = "", wide = false) {
 
 /** The numbers of one scene, and why its kinematics were chosen. */
 function sceneNumbers(scene) {
-  const local = scene.largestLocal === null ? "" : `${rounded(scene.largestLocal)} MPa per deformed area`;
   return element("dl", {},
     entry("μ by stress power", rounded(scene.friction, 4)),
     entry("μ by dissipation", rounded(scene.dissipation, 4)),
     entry("μ by contact pressure", rounded(scene.contactRoute, 4)),
     entry("The three differ by at most", percent(scene.closure)),
     entry("In contact", percent(scene.contact), "of the nominal area"),
-    entry("Largest contact pressure", pressureOf(Number(scene.largest.toPrecision(3))), local),
+    entry("Largest contact pressure per undeformed area", pressureOf(Number(scene.largest.toPrecision(3)))),
+    entry("Largest contact pressure per deformed area", scene.largestLocal === null ? "unknown" : pressureOf(Number(scene.largestLocal.toPrecision(3)))),
     entry("Nominal compression", percent(scene.compression), "on a flat road"),
     entry("Mesh", `${plain(scene.columns)} × ${plain(scene.rows)} cells`),
     entry(`Kinematics: ${scene.finite ? "finite" : "small"} strain`, scene.reason ? sentence(scene.reason) : "", "", true),
@@ -34,7 +34,7 @@ function totalNumbers(data, chosen) {
   };
   const rows = data.scales.map(({ number }, order) => {
     const scene = data.scenes[number][pressure][speed];
-    const name = element("td", {}, element("span", { class: "swatch", style: `background:${data.colours.scales[order]}` }), `scale ${number}`);
+    const name = element("td", {}, element("span", { class: "swatch", style: `background:${scaleColour(data, order)}` }), `scale ${number}`);
     return row(name, scene, scene?.friction ?? null, scene?.error ?? null, scene && sum ? percent(scene.friction / sum) : "");
   });
   for (const name of ["sum", "corrected", "cascade", "persson", "direct"]) {
@@ -46,18 +46,7 @@ function totalNumbers(data, chosen) {
   const { friction, error } = data.curves.total;
   const taken = way[pressure][speed];
   rows.push(row(element("td", {}, taken ? `total: ${WAY_NAMES[taken]}` : "total"), null, friction[pressure][speed], error[pressure][speed]));
-  const head = element("tr", {}, ...["", "μ", "share of sum", "contact", "largest MPa"].map((name) => element("th", { scope: "col" }, name)));
+  const head = element("tr", {}, ...["", "μ", "share of sum", "contact", "largest contact pressure per undeformed area (MPa)"].map((name) => element("th", { scope: "col" }, name)));
   const table = element("table", {}, element("thead", {}, head), element("tbody", {}, ...rows));
   return element("div", { class: "scroll" }, table);
-}
-
-/** The warnings of some scenes, each once, with the scales that it is about. */
-function warningsOf(scenes) {
-  const said = new Map();
-  const whose = (place) => (place === "whole" ? "Whole road" : `Scale ${place}`);
-  for (const [number, scene] of scenes) {
-    for (const words of scene?.warnings ?? []) said.set(words, [...(said.get(words) ?? []), number]);
-  }
-  const items = [...said].map(([words, scales]) => element("li", {}, scenes.length > 1 ? `${scales.map(whose).join(", ")}: ${words}` : words));
-  return items.length ? [element("ul", { "aria-label": "Warnings" }, ...items)] : [];
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -41,16 +42,7 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
     parts |= {"rubber": RUBBER_PART} if RUBBER_PART in table else {}
     numbers = [name for pair in pairs.values() for name in pair] + list(TOTAL)
     check_columns(table, "table of totals", ("way",), [*AXES, *parts.values()], numbers)
-    columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])
-    # A table has six digits.
-    same = [np.isclose(table[name].to_numpy()[:, None], axis, rtol=1e-5, atol=0.0) for name, axis in columns]
-    known = np.flatnonzero(same[0].any(axis=1) & same[1].any(axis=1))
-    places = tuple(one[known].argmax(axis=1) for one in same)
-
-    def field(name: str, kind: type = float) -> Any:
-        values: Any = np.full([axis.size for _, axis in columns], np.nan, dtype=kind)
-        values[places] = table[name].to_numpy(dtype=kind)[known]
-        return values
+    field = _fields(table, axes)
 
     def words(name: str) -> list[list[str | None]]:
         return [[one if isinstance(one, str) and one else None for one in row] for row in field(name, object)]
@@ -62,6 +54,37 @@ def by_way(table: pd.DataFrame, axes: Axes) -> dict[str, Any]:
         "parts": {part: field(name) for part, name in parts.items()},
         **{name: words(name) for name in WORDS},
     }
+
+
+def beside(table: pd.DataFrame, axes: Axes) -> tuple[np.ndarray, np.ndarray]:
+    """Return total friction and its error of another rubber or road over pressure and speed, NaN where there is none.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As from ``rubfric.results.pair.read_pair``.
+    axes : dict of numpy.ndarray
+        ``pressure`` (MPa) and ``velocity`` (mm/s) of the page.
+    """
+    check_columns(table, "table of totals", (), AXES, TOTAL)
+    field = _fields(table, axes)
+    return field("friction_total"), field("friction_total_error")
+
+
+def _fields(table: pd.DataFrame, axes: Axes) -> Callable[..., Any]:
+    """Return a function that gives a column of a table of totals over pressure and speed."""
+    columns = ("pressure_MPa", axes["pressure"]), ("velocity_mm_per_s", axes["velocity"])
+    # A table has six digits.
+    same = [np.isclose(table[name].to_numpy()[:, None], axis, rtol=1e-5, atol=0.0) for name, axis in columns]
+    known = np.flatnonzero(same[0].any(axis=1) & same[1].any(axis=1))
+    places = tuple(one[known].argmax(axis=1) for one in same)
+
+    def field(name: str, kind: type = float) -> Any:
+        values: Any = np.full([axis.size for _, axis in columns], np.nan, dtype=kind)
+        values[places] = table[name].to_numpy(dtype=kind)[known]
+        return values
+
+    return field
 
 
 def on_axes(whole: xr.Dataset, axes: Axes) -> xr.Dataset:

@@ -66,7 +66,7 @@ function comparison(data, chosen) {
   const { friction, error } = data.totals.ways.sum;
   const [values, errors] = [friction[chosen.pressure], error[chosen.pressure]];
   return {
-    x: data.speeds, y: values, name: WAY_NAMES.sum, mode: "lines", connectgaps: false, line: { color: "#5c6370", width: 1.6, dash: "6px,4px" },
+    x: data.speeds, y: values, name: WAY_NAMES.sum, mode: "lines", connectgaps: false, line: { color: INKS.quiet, width: 1.6, dash: "6px,4px" },
     text: values.map((value, speed) => `${WAY_NAMES.sum}<br>${speedOf(data.speeds[speed])}, ${pressureOf(data.pressures[chosen.pressure])}<br>μ ${measured(value, errors[speed])}`),
     hovertemplate: "%{text}<extra></extra>",
   };
@@ -80,7 +80,7 @@ function crosses(data) {
     found.x.push(data.speeds[speed]);
     found.y.push(data.curves.total.friction[pressure][speed]);
   }));
-  return { ...found, mode: "markers", hoverinfo: "skip", marker: { symbol: "x-thin", size: 13, line: { width: 1.8, color: "#1d2129" } } };
+  return { ...found, mode: "markers", hoverinfo: "skip", marker: { symbol: "x-thin", size: 13, line: { width: 1.8, color: INKS.ink } } };
 }
 
 /** The part of the whole road that is magnified, mm. */
@@ -93,7 +93,7 @@ function spotFrame(road, place) {
 
 /** The frame of the spot in the picture of the whole road. */
 function spotShape({ left, right, bottom, top }, whole) {
-  const line = { color: "#1d2129", width: 1.2 };
+  const line = { color: INKS.ink, width: 1.2 };
   return { type: "rect", x0: left, x1: right, y0: Math.max(bottom, whole.bottom), y1: Math.min(top, whole.top), line };
 }
 

@@ -52,7 +52,12 @@ function relative(friction, error) {
   return `${plain(unit * Math.ceil(share / unit - 1e-9))}${THIN}%`;
 }
 
-function speedOf(value) { return `${plain(value)}${THIN}mm/s`; }
+// Units of speed, and how many of them are 1 mm/s; the page keeps speeds in mm/s, and writes them in the one that is chosen.
+const UNITS = { "mm/s": 1, "m/s": 1e-3, "km/h": 3.6e-3 };
+let unit = "mm/s";
+function speedNumber(value, of = unit) { return plain(value * UNITS[of]); }
+function speedOf(value, of = unit) { return `${speedNumber(value, of)}${THIN}${of}`; }
+function otherUnits(value) { return Object.keys(UNITS).filter((name) => name !== unit).map((name) => speedOf(value, name)).join(" · "); }
 function pressureOf(value) { return `${plain(value)}${THIN}MPa`; }
 
 /** A sentence with its capital and full stop. */
@@ -76,14 +81,14 @@ function option(group, value, ...label) {
 }
 
 /** The line of a pressure. */
-function swatch(colour, dash) {
+function swatch(dash) {
   const name = "http://www.w3.org/2000/svg";
   const drawing = document.createElementNS(name, "svg");
   drawing.setAttribute("width", "22");
   drawing.setAttribute("height", "6");
   drawing.setAttribute("aria-hidden", "true");
   const line = document.createElementNS(name, "line");
-  const look = { x1: 0, x2: 22, y1: 3, y2: 3, stroke: colour, "stroke-width": 3 };
+  const look = { x1: 0, x2: 22, y1: 3, y2: 3, "stroke-width": 3 };
   if (dash !== "solid") look["stroke-dasharray"] = dash.replaceAll("px", "");
   for (const [key, value] of Object.entries(look)) line.setAttribute(key, value);
   drawing.append(line);
@@ -102,9 +107,9 @@ function peakWords(curve, pressure, pressures, speeds) {
   const gaps = missing ? ` ${missing} of ${speeds.length} speeds have no result.` : "";
   const said = {
     peak: () => {
-      const [low, high] = between.map((place) => plain(speeds[place]));
+      const [low, high] = between.map((place) => speedNumber(speeds[place]));
       return `${here} the peak is ${highest} at ${there}, the highest of the speeds run; ` +
-        `if the curve has a single peak, it lies between ${low} and ${high}${THIN}mm/s.`;
+        `if the curve has a single peak, it lies between ${low} and ${high}${THIN}${unit}.`;
     },
     rising: () => `${here} there is no peak: friction is still rising at ${there}, the fastest speed run (${highest}).`,
     falling: () => `${here} there is no peak: friction is highest at ${there}, the slowest speed run (${highest}).`,
@@ -124,9 +129,11 @@ function marksWords(curve, { view, place, pressure }, data) {
   const rings = curve.peaks.some(({ kind }) => kind === "peak");
   const mark = view === "map" ? "Dots: the highest of the speeds at a pressure, where it is a peak." : "Rings: sampled peaks.";
   const error = largest > 0 ? `${view === "map" ? "Estimated" : "Bands: estimated"} error, at most ${relative(1, largest)}.` : "";
-  const sum = place === "total" && view === "curves" ? `Dashed: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
+  const sum = place === "total" && view === "curves" ? `Thin dashes: the sum of the scales at ${pressureOf(data.pressures[pressure])}, as the paper has it.` : "";
   const crossed = sum && crosses(data).x.length ? "Crosses: the whole road was not solved at once there." : "";
   const apart = place === "whole" && view === "curves" && severalRoads(data).length
     ? `Circles: each ${data.whole.windows ? "window" : "random road"} at ${pressureOf(data.pressures[pressure])}, filled the one that is shown.` : "";
-  return [rings ? mark : "", error, sum, crossed, apart].filter(Boolean).join(" ");
+  const warned = curve.friction.some((row, at) => row.some((friction, speed) => friction !== null && warningsAt(data, place, at, speed).size))
+    ? "Triangles: a warning, which is said under the pointer and below the block." : "";
+  return [rings ? mark : "", warned, error, sum, crossed, apart].filter(Boolean).join(" ");
 }

@@ -71,6 +71,22 @@ def test_every_scene_has_its_numbers_reason_and_warnings(
     assert low <= high - 0.5
 
 
+def test_other_pairs_are_beside_the_total_where_they_were_run(make_campaign: CampaignMaker) -> None:
+    campaign = make_campaign()
+    table = make_totals(campaign)
+    assert "others" not in payload(campaign, table, [], 0.75, "road")
+    other = table.assign(friction_total=2.0 * table["friction_total"]).drop(index=1)
+    found = payload(campaign, table, [], 0.75, "road", others={"b on c": other})
+    (pair,) = found["others"]
+    twice = 2.0 * np.array(found["curves"]["total"]["friction"])
+    assert pair["name"] == "b on c"
+    assert pair["friction"][0][1] is None
+    assert pair["friction"][0][::2] + pair["friction"][1] == pytest.approx([*twice[0][::2], *twice[1]], rel=1e-7)
+    assert pair["error"][1] == pytest.approx(found["curves"]["total"]["error"][1], rel=1e-7)
+    with pytest.raises(InvalidInput, match=r"lacks the column friction_total"):
+        payload(campaign, table, [], 0.75, "road", others={"b on c": table.drop(columns="friction_total")})
+
+
 def test_pictures_are_thinned_where_there_are_many(
     make_campaign: CampaignMaker, make_result: ResultMaker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
