@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,12 +13,12 @@ import pandas as pd
 import xarray as xr
 
 from rubfric.checks import written
-from rubfric.checksums import fingerprint
-from rubfric.errors import BrokenResult, InvalidInput, NotConverged
+from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.campaign import collect
 from rubfric.results.curves import curve_of
 from rubfric.results.dataset import write
 from rubfric.results.draws import over_draws
+from rubfric.results.kept import fits, path_of
 from rubfric.results.limits import MOST
 from rubfric.results.provenance import refusal
 from rubfric.results.selection import NOT_NEEDED
@@ -29,6 +28,8 @@ from rubfric.results.whole_road import WholeRoad
 from rubfric.scene.scene import Scene
 from rubfric.simulation import simulate
 
+# The folder of scalars alone, within that of what is kept.
+_SCALARS = "scalars"
 # Paths of results, and the digests that they must have.
 Results = Mapping[str, str]
 
@@ -99,7 +100,7 @@ def added_points(
     accuracy : float
         Relative, of interpolation.
     kept : path-like
-        Folder in which results are kept, and looked for, by the digests of their scenes.
+        Folder in which results are kept, and looked for, as from ``rubfric.results.kept.opened``.
     progress : callable
         Takes a line for every speed that is added.
 
@@ -152,14 +153,14 @@ def _solved(scene: Scene, kept: Path, refusable: bool = False) -> str:
     ----------
     scene : Scene
     kept : Path
-        Folder of results.
+        As for ``added_points``.
     refusable : bool
         Whether a scene that is refused has a result that says why.
     """
-    path = kept / f"{scene.digest}.nc"
-    try:
-        collect([path], [scene.digest])
-    except BrokenResult:
+    whole, path = path_of(kept, scene), kept / _SCALARS / f"{scene.digest}.nc"
+    if fits(whole, scene):
+        return str(whole)
+    if not fits(path, scene):
         try:
             result = simulate(scene)
         except (InvalidInput, NotConverged) as reason:
@@ -168,24 +169,6 @@ def _solved(scene: Scene, kept: Path, refusable: bool = False) -> str:
             result = refusal(scene, reason)
         write(result[[name for name, variable in result.variables.items() if not variable.dims]], path)
     return str(path)
-
-
-def kept_of(folder: str | os.PathLike[str], code: str | os.PathLike[str]) -> Path:
-    """Return where results of this code are kept, and remove those of other code.
-
-    Parameters
-    ----------
-    folder : path-like
-        Of all that is kept; made where it is missing.
-    code : path-like
-        The file that represents the code, as from ``rubfric.runner.reruns.stamp``.
-    """
-    place = Path(folder, fingerprint([Path(code).read_text(encoding="utf-8")])[:16])
-    place.mkdir(parents=True, exist_ok=True)
-    for other in Path(folder).iterdir():
-        if other != place:
-            shutil.rmtree(other, ignore_errors=True)
-    return place
 
 
 def sliding_of(scales: Sequence[Mapping], whole: Mapping[str, Mapping], road: Mapping | None) -> Sliding:  # type: ignore[type-arg]

@@ -11,9 +11,10 @@ import pytest
 import rubfric
 from rubfric import curve_simulation
 from rubfric.config.campaign import Campaign
-from rubfric.curve_simulation import Sliding, added_points, kept_of, sliding_of
+from rubfric.curve_simulation import Sliding, added_points, sliding_of
 from rubfric.errors import NotConverged
 from rubfric.results.curves import curve_of
+from rubfric.results.kept import path_of
 from rubfric.results.provenance import refusal
 from rubfric.scene.scene import Scene
 
@@ -81,8 +82,14 @@ def test_added_speeds_are_solved_until_the_curve_is_known_and_kept(
     whole = added_points(ready.sliding, ready.scales, {}, ACCURACY, tmp_path / "kept")
     assert len(ready.solved) == count
     assert whole["friction_total"].tolist() == pytest.approx(table["friction_coefficient"].tolist()[: len(whole)])
+    # So is what the campaign solved without the workflow.
+    full = tmp_path / "full"
+    for scene in ready.solved:
+        rubfric.write(rubfric.simulate(scene), path_of(full, scene))
+    assert added_points(one, ready.scales, {}, ACCURACY, full).equals(table)
+    assert len(ready.solved) == count
     # A file that was damaged is solved again.
-    next((tmp_path / "kept").glob("*.nc")).write_bytes(b"no result")
+    next((tmp_path / "kept").rglob("*.nc")).write_bytes(b"no result")
     assert added_points(one, ready.scales, {}, ACCURACY, tmp_path / "kept").equals(table)
     assert len(ready.solved) == count + 1
 
@@ -114,15 +121,6 @@ def test_a_whole_road_that_is_not_needed_is_not_solved(tmp_path: Path, monkeypat
     table = added_points(ready.sliding, ready.scales, ready.whole, ACCURACY, tmp_path / "kept")
     assert set(table["way"]) == {"sum"}  # one scale is no coupling
     assert {scene.scale for scene in ready.solved} == {1}
-    assert refusal(ready.solved[0], "x").attrs["scene_digest"] in {path.stem for path in (tmp_path / "kept").iterdir()}
-
-
-def test_results_of_other_code_are_removed(tmp_path: Path) -> None:
-    code = tmp_path / "code"
-    code.write_text("one")
-    first = kept_of(tmp_path / "kept", code)
-    assert kept_of(tmp_path / "kept", code) == first
-    assert first.is_dir()
-    code.write_text("another")
-    assert kept_of(tmp_path / "kept", code) != first
-    assert not first.exists()
+    assert refusal(ready.solved[0], "x").attrs["scene_digest"] in {
+        path.stem for path in (tmp_path / "kept").rglob("*.nc")
+    }

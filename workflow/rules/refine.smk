@@ -51,7 +51,6 @@ def sliding(curve):
 
 CURVES = scenes_of_curves() if CAMPAIGN.refine else {}
 REFINED = [*CURVES]
-ADDED = ".snakemake/added"
 # The tables of the grid's points, and of the added ones, by the name of the curve.
 CURVES_OF = {
     **{
@@ -82,7 +81,6 @@ if REFINED:
     rule refined_curve:
         input:
             package_files("rubfric.curve_simulation"),
-            code=package_files("rubfric.simulation"),
             script=script_copy("refine_curve.py"),
             scales=lambda wildcards: [*CURVES[wildcards.curve]["scales"]],
             whole=lambda wildcards: [
@@ -115,8 +113,7 @@ if REFINED:
                 whole=params.whole,
                 sliding=params.sliding,
                 accuracy=params.accuracy,
-                kept=ADDED,
-                code=input.code,
+                results=RESULTS,
             )
 
 

@@ -2,7 +2,8 @@
 
 from typing import Any
 
-from rubfric.curve_simulation import added_points, kept_of, sliding_of
+from rubfric.curve_simulation import added_points, sliding_of
+from rubfric.results.kept import opened, place
 from rubfric.results.tables import write_table
 
 
@@ -12,8 +13,7 @@ def main(
     whole: dict[str, dict[str, str]],
     sliding: dict[str, Any],
     accuracy: float,
-    kept: str,
-    code: str,
+    results: str,
 ) -> None:
     """Write friction at the added speeds.
 
@@ -28,11 +28,10 @@ def main(
         Arguments of ``sliding_of``.
     accuracy : float
         Relative, of interpolation.
-    kept : str
-        Folder of the results at added speeds.
-    code : str
-        Path of the file that represents the code behind them.
+    results : str
+        Folder of the campaign's results, where those at added speeds are kept.
     """
-    table = added_points(sliding_of(**sliding), scales, whole, accuracy, kept_of(kept, code))
+    with opened(place(results)) as kept:
+        table = added_points(sliding_of(**sliding), scales, whole, accuracy, kept)
     write_table(table, output)
     print(f"{len(table)} speeds added")
