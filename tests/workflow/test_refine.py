@@ -79,11 +79,11 @@ def test_added_pressure_runs_its_own_curves_only(refined: Project, tmp_path: Pat
 def test_edited_figure_and_table_add_no_speeds(refined: Project, tmp_path: Path) -> None:
     project = refined.copy(tmp_path / "project")
     project.comment("rubfric/figures/fig6.py", "workflow/rules/refine.smk")
-    assert project.plan().jobs == {"campaign_figure": 1, "index_page": 1}
+    assert project.plan().jobs == {"campaign_figure": 1}
     project.comment("rubfric/results/peaks.py")
     plan = project.plan()
     assert not curves_of(plan.text)
-    assert plan.jobs == {"curve_table": 1, "campaign_figure": 1, "total_figure": 1, "index_page": 1}
+    assert plan.jobs == {"curve_table": 1, "campaign_figure": 1, "total_figure": 1}
 
 
 def test_added_speed_and_finer_accuracy_solve_what_is_new_only(refined: Project, tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_added_speed_and_finer_accuracy_solve_what_is_new_only(refined: Project,
 def test_without_refine_the_added_speeds_go_and_peaks_stay(refined: Project, tmp_path: Path) -> None:
     project = refined.copy(tmp_path / "project")
     project.edit("curves.yaml", lambda text: text.replace(", refine: 0.1", ""))
-    assert project.plan().jobs == {"curve_table": 1, "campaign_figure": 1, "total_figure": 1, "index_page": 1}
+    assert project.plan().jobs == {"curve_table": 1, "campaign_figure": 1, "total_figure": 1}
     project.run()
     assert not [*(project.results / "refined").rglob("*.csv")]
     peaks = read_table(project.results / "tables" / "peaks.csv", WORDS)
