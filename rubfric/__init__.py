@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # for editors and type checkers, which do not run __getattr__
     from rubfric.scene.procedure import Procedure
     from rubfric.scene.scene import Scene
     from rubfric.simulation import simulate
+    from rubfric.studies.sensitivity.study import sensitivity
     from rubfric.total_simulation import friction, run
 
 __version__ = "0.1.0"
@@ -63,6 +64,7 @@ _HOMES = {
     "load": "config.campaign",
     "march": "marching",
     "run": "total_simulation",
+    "sensitivity": "studies.sensitivity.study",
     "simulate": "simulation",
     "simulate_areal": "areal_simulation",
     "write": "results.dataset",
@@ -91,6 +93,7 @@ __all__ = [
     "load",
     "march",
     "run",
+    "sensitivity",
     "simulate",
     "simulate_areal",
     "write",

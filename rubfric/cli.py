@@ -13,6 +13,7 @@ from rubfric.commands.export import add_export
 from rubfric.commands.friction import add_friction
 from rubfric.commands.road import add_road
 from rubfric.commands.rubber import add_rubber
+from rubfric.commands.sensitivity import add_sensitivity
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
@@ -35,6 +36,7 @@ example:
   rubfric simulate --road runway --velocity 100 --pressure 0.3 --config mine.yaml --output areal.nc
   rubfric march --scale 1 --velocity 100 --pressure 0.5 --wavelengths 10 --output march.nc
   rubfric friction --config mine.yaml --velocity 1,10,100 --pressure 0.2,1
+  rubfric sensitivity --config mine.yaml --velocity 100 --pressure 0.3
   rubfric export results --to abaqus --output friction.inp
   rubfric init mine.yaml
 
@@ -128,6 +130,7 @@ def _parser() -> argparse.ArgumentParser:
     init.add_argument("file", metavar="FILE", help="config to write, mine.yaml say; a file that exists is left alone")
     init.set_defaults(run=_init)
     add_friction(commands, _configs)
+    add_sensitivity(commands, _configs)
     add_export(commands)
     add_rig(commands, _configs)
     add_rubber(commands, _configs)

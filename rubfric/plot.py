@@ -18,6 +18,7 @@ from matplotlib.ticker import LogLocator
 from rubfric.config.campaign import Campaign
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig4, panels, style
+from rubfric.figures import sensitivity as tornado
 from rubfric.figures.bands import draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
@@ -27,6 +28,7 @@ from rubfric.results.scales import AXES
 from rubfric.results.selection import written
 from rubfric.results.temperature import COLUMN, rows_at
 from rubfric.results.totals_file import read_totals
+from rubfric.studies.sensitivity.result import Sensitivities
 
 # Height of a panel, inches; of so many panels each is wide enough for ticks between decades.
 _HEIGHT, _WIDE = 2.7, 2
@@ -140,6 +142,29 @@ def friction(
     panels.label(axes, *words)
     panels.legend_beside(figure, handles, "Nominal pressure")
     return _shown(figure)
+
+
+def sensitivity(found: Sensitivities) -> Figure:
+    """Draw what each number of rubber, road, block and load does to friction: a bar each, the longest on top.
+
+    Parameters
+    ----------
+    found : Sensitivities
+        As from ``rubfric.sensitivity``.
+
+    Raises
+    ------
+    InvalidInput
+        Where no change of friction is known.
+
+    Examples
+    --------
+    >>> import rubfric.plot
+    >>> found = rubfric.sensitivity(rubfric.load({"kinematics": "small"}), 100, 0.5, scale=1, only=["E", "g_2"])
+    >>> figure = rubfric.plot.sensitivity(found)
+    >>> figure.savefig("tornado.png")  # doctest: +SKIP
+    """
+    return _shown(tornado.draw(found.table, found.change, found.title))
 
 
 def _draw(panel: Axes, table: pd.DataFrame, pressure: float, look: dict[str, Any]) -> Any:

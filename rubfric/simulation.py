@@ -15,9 +15,9 @@ from rubfric.mechanics.finite.steady import FiniteSolver
 from rubfric.mechanics.small.energy import evaluate_small
 from rubfric.mechanics.small.steady import SmallSolver
 from rubfric.mechanics.steady.energies import Energies, most_closure
-from rubfric.mechanics.steady.refinement import Solver, refined
-from rubfric.mechanics.steady.resolution import most_columns
-from rubfric.mechanics.steady.solution import SteadySolution
+from rubfric.mechanics.steady.refinement import Solver, refined, solve_on
+from rubfric.mechanics.steady.resolution import Resolution, most_columns
+from rubfric.mechanics.steady.solution import OnMesh, SteadySolution
 from rubfric.mechanics.theory.kinematics import Decision, decide
 from rubfric.mechanics.theory.limits import require_digits, require_height, require_resolvable, require_resolved
 from rubfric.results import dataset
@@ -31,12 +31,13 @@ class Mechanics:
     Attributes
     ----------
     solver : callable
-        Solves a scene, steadily sliding, on one mesh after the other.
+        Solves a scene, steadily sliding, on one mesh after the other; takes the scene, the decision on its kinematics
+        and, optionally, the solution of a scene nearly the same to start from.
     evaluate : callable
         Returns the friction coefficient by three routes and the stored strain energy of what ``solver`` has solved.
     """
 
-    solver: Callable[[Scene, Decision], Solver[Any]]
+    solver: Callable[..., Solver[Any]]
     evaluate: Callable[[Any], Energies]
 
     def solve(self, scene: Scene, decision: Decision) -> SteadySolution:
@@ -149,6 +150,28 @@ def solve(scene: Scene) -> SteadySolution:
     """
     decision = decide(scene)
     return MECHANICS[decision.kinematics].solve(scene, decision)
+
+
+def solve_near(scene: Scene, solution: SteadySolution, mesh: Resolution) -> SteadySolution:
+    """Slide the block of a scene that is nearly one solved before, in its kinematics, on one given mesh.
+
+    Parameters
+    ----------
+    scene : Scene
+    solution : SteadySolution
+        Of the scene solved before, to start from.
+    mesh : Resolution
+        Such as ``rubfric.mechanics.steady.same_mesh.SameMesh``.
+
+    Raises
+    ------
+    NotConverged
+        With the scene's name, step and residual.
+    """
+    meshes: list[OnMesh] = []
+    solver = MECHANICS[solution.decision.kinematics].solver(scene, solution.decision, solution)
+    found: SteadySolution = solve_on(scene, solver, mesh, meshes)
+    return replace(found, meshes=tuple(meshes))
 
 
 def evaluate(solution: SteadySolution) -> Energies:

@@ -109,16 +109,28 @@ def solve_finite(scene: Scene, decision: Decision) -> FiniteSolution:
 
 
 class FiniteSolver:
-    """Solves one scene on one mesh after the other, each from the solution on the one before."""
+    """Solves one scene on one mesh after the other, each from the solution on the one before.
+
+    Parameters
+    ----------
+    scene : Scene
+    decision : Decision
+    start : FiniteSolution, optional
+        Of a scene nearly the same, to begin with. A mesh of as many columns and rows has its layers.
+    """
 
     finite = True
 
-    def __init__(self, scene: Scene, decision: Decision) -> None:
+    def __init__(self, scene: Scene, decision: Decision, start: FiniteSolution | None = None) -> None:
         self.scene = scene
         self.decision = decision
         self._load = Load(scene.road, scene.pressure)
         self._log = AttemptLog()
         self._before: _Found | None = None
+        self._start = start
+        if start:
+            mesh = Resolution(start.block.columns, start.meshes[-1].growth)
+            self._before = _Found(mesh, start.finite, start.fields, start.contact.touching)
 
     def first(self) -> Resolution:
         """Return the mesh to begin with, from the contact of an elastic half-space."""
@@ -166,7 +178,10 @@ class FiniteSolver:
         scene, block = self.scene, resolution.block(self.scene)
         folding = fold_scene(scene, block.wavenumbers[1:])
         stretch, _ = pressed(scene.material, scene.pressure, scene.plane)
-        finite = FiniteBlock(block, folding.material, scene.velocity, divided(block, stretch))
+        start = self._start and self._start.finite
+        same = start and (start.block.rows, start.block.columns) == (block.rows, block.columns)
+        layers = start.layers if start and same else divided(block, stretch)
+        finite = FiniteBlock(block, folding.material, scene.velocity, layers)
         return SlidingContact(finite, measures(scene.road), scene.name), folding
 
     def _warm(self, problem: SlidingContact, resolution: Resolution) -> Solved | None:

@@ -82,16 +82,24 @@ def solve_small(scene: Scene, decision: Decision) -> SmallSolution:
 
 
 class SmallSolver:
-    """Solves one scene on one mesh after the other, each from the contact found before."""
+    """Solves one scene on one mesh after the other, each from the contact found before.
+
+    Parameters
+    ----------
+    scene : Scene
+    decision : Decision
+    start : SmallSolution, optional
+        Of a scene nearly the same, whose contact is the first guess.
+    """
 
     finite = False
 
-    def __init__(self, scene: Scene, decision: Decision) -> None:
+    def __init__(self, scene: Scene, decision: Decision, start: SmallSolution | None = None) -> None:
         self.scene = scene
         self.decision = decision
         filling = full_contact_pressure(scene.material, scene.road, scene.velocity, scene.height, scene.plane)
         self._may_fill = scene.pressure >= _FULL_CONTACT_FROM * filling
-        self._touching: Flags | None = None
+        self._touching: Flags | None = start.contact.touching if start else None
         self._iterations = 0
         self._history: tuple[str, ...] = ()
 

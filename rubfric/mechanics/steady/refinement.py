@@ -68,7 +68,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
     resolution = solution.needed(solver.finite)
     most = most_columns(scene, solver.finite)
     while True:
-        solution = _solved(scene, solver, resolution, meshes)
+        solution = solve_on(scene, solver, resolution, meshes)
         if solution.resolved or resolution.columns >= most:
             break
         resolution = solution.needed(solver.finite, 1.0 - 0.5 * SHORTFALL)
@@ -82,7 +82,7 @@ def refined(scene: Scene, solver: Solver[Solution]) -> Solution:
         if finer is None:
             break
         try:
-            resolution, solution = finer, _solved(scene, solver, finer, meshes)
+            resolution, solution = finer, solve_on(scene, solver, finer, meshes)
         except NotConverged:
             if finest_waves(scene.road) == 1:
                 raise
@@ -113,17 +113,36 @@ def steps_to(scene: Scene, solver: Solver[Solution], meshes: list[OnMesh]) -> So
         Gets what was solved.
     """
     resolution = solver.first()
-    solution = _solved(scene, solver, resolution, meshes)
+    solution = solve_on(scene, solver, resolution, meshes)
     while True:
         coarse = solution.needed(solver.finite).coarser(scene, solver.finite)
         if coarse.columns <= _NEAR * resolution.columns:
             return solution
         stride = resolution.finer(scene, _STRIDE, solver.finite)
         resolution = coarse if coarse.columns <= stride.columns else Resolution(stride.columns, coarse.growth)
-        solution = _solved(scene, solver, resolution, meshes)
+        solution = solve_on(scene, solver, resolution, meshes)
 
 
-def _solved(scene: Scene, solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+def solve_on(scene: Scene, solver: Solver[Solution], resolution: Resolution, meshes: list[OnMesh]) -> Solution:
+    """Return the solution on one mesh.
+
+    Parameters
+    ----------
+    scene : Scene
+    solver : Solver
+        Of that scene.
+    resolution : Resolution
+        The mesh.
+    meshes : list of OnMesh
+        Gets what was solved.
+
+    Raises
+    ------
+    InvalidInput
+        Where a mesh in small strain would have too many cells.
+    NotConverged
+        From ``solver``.
+    """
     if not (solver.finite or resolution.affordable(scene, False)):
         raise InvalidInput(
             f"numerics.row_growth of {scene.name} is {scene.numerics.row_growth:g}, but must be larger: with "
