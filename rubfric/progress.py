@@ -14,6 +14,7 @@ _WORDS = {
     "whole_scene": ("scene of the whole road", "scenes of the whole road"),
     "areal_scene": ("scene on an areal road", "scenes on areal roads"),
     "march": ("march", "marches"),
+    "refined_curve": ("refined curve", "refined curves"),
     "reading": ("batch of other readings", "batches of other readings"),
     "table": ("table", "tables"),
     "figure": ("figure", "figures"),

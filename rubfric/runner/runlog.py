@@ -258,7 +258,14 @@ class RunLog(logging.Handler):
             total = sum(seconds for _, seconds, _ in cost.values())
             lines += [f"CPU time behind these results {duration(total)}: {_parts(cost)}"] if total else []
         lines += findings(self._made.tables())
-        return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
+        return [
+            *lines,
+            *(
+                self._leftovers()
+                if {"scale_table", "total_table", "curve_table"} & set(self._progress.finished)
+                else []
+            ),
+        ]
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:

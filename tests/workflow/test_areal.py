@@ -67,6 +67,7 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
         "areal_table": 1,
         "areal_figure": 1,
         "total_table": 1,
+        "curve_table": 1,
         "total_figure": 2,
         "explorer": 1,
     }

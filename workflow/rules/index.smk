@@ -103,6 +103,10 @@ IN_GROUPS = {
             )
             for scale in CAMPAIGN.scales
         ),
+        named(
+            "peaks of friction over speed", CURVE_TABLES["page"], CURVE_TABLES["peaks"]
+        ),
+        named("friction over speed, every point", table=CURVE_TABLES["curves"]),
         *([named("evidence on the claims", table=CLAIMS["evidence"])] if JUDGE else []),
         *(
             named(f"test rig: {what}", table=path)
