@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import rubfric
 from rubfric.checks import written
 from rubfric.commands.configs import add_configs, warn
-from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.commands.lists import add_points
 from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import not_covered
@@ -63,18 +63,7 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_configs(command)
-    for name, what in (
-        ("velocity", "sliding speeds, mm/s"),
-        ("pressure", "nominal pressures, MPa"),
-        ("temperature", "temperatures of a rubber with shift factors, degC"),
-    ):
-        command.add_argument(
-            f"--{name}",
-            action=Numbers,
-            metavar=f"{name[0].upper()},...",
-            help=f"{what}, with commas between (default: the grid's)",
-        )
-    take_negative_lists(command)
+    add_points(command, "velocity", "pressure", "temperature", default="the grid's")
     form = command.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON, for scripts")
     form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import rubfric
 from rubfric.checks import decimals
 from rubfric.commands.configs import add_configs, warn
-from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.commands.lists import add_points
 from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
 from rubfric.config.plausibility import check_plausible
@@ -57,14 +57,7 @@ def add_sensitivity(commands: Any, configs: Callable[[list[Path]], list[Path]]) 
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_configs(command)
-    for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
-        command.add_argument(
-            f"--{name}",
-            action=Numbers,
-            metavar=f"{name[0].upper()},...",
-            help=f"{what}, with commas between (default: the middle)",
-        )
-    take_negative_lists(command)
+    add_points(command, "velocity", "pressure", default="the middle")
     command.add_argument("--temperature", type=float, metavar="T", help="of a rubber with shift factors, degC")
     command.add_argument(
         "--scale", default=ALL, metavar="N", help="scale of the road, 1 being the coarsest (default: all at once)"
