@@ -33,7 +33,7 @@ multiscale: direct
 phases: {draws: 3}
 numerics: {preset: draft}
 """
-COMPARISON = {"comparison_table": 1, "comparison_figure": 1}
+COMPARISON = {"comparison_table": 1, "comparison_figure": 1, "explorer": 1}
 Change = Callable[[str], str]
 
 
