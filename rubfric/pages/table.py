@@ -19,7 +19,7 @@ _PLAIN = (1e-6, 1e7)
 # Ends of headings, and the units that the page writes for them.
 _UNITS = {"_mm_per_s": "mm/s", "_MPa": "MPa", "_mm": "mm", "_s": "s", "_MB": "MB", "_degC": "°C"}
 # Columns that say which scene or point a row is of; the first of them stay in sight, up to a width in digits.
-_AXES = ("rubber", "road", "velocity_mm_per_s", "pressure_MPa", "temperature_degC", "aspect")
+_AXES = ("rubber", "road", "curve", "velocity_mm_per_s", "pressure_MPa", "temperature_degC", "aspect")
 _FROZEN = 24
 # Groups of columns: pattern of the name, group, and what the page writes in place of the name, if not that itself.
 _GROUPS = (
@@ -45,6 +45,13 @@ _GROUPS = (
     (r"maximum_local_contact_pressure_MPa", "contact", "largest pressure per deformed area"),
     (r"finite_strain|finite_strain_correction|effective_poissons_ratio|shear_wave_speed_ratio", "model", ""),
     (r"meshes|columns|rows|contact_nodes", "numerics", ""),
+    (r"kind", "peak", ""),
+    (r"peak_friction(_error)?", "peak", r"friction\1"),
+    (r"peak_speed(_low|_high)?_mm_per_s", "peak", r"speed\1"),
+    (r"half_(slower|faster)_speed_mm_per_s", r"half of it, \1", "speed"),
+    (r"half_(slower|faster)_speed_(low|high)_mm_per_s", r"half of it, \1", r"\2"),
+    (r"points|added", "known from", ""),
+    (r"interpolation_error", "known from", ""),
 )
 # Texts longer than this are set in lines, characters.
 _LINE = 40
@@ -115,7 +122,8 @@ def _of_group(name: str) -> tuple[str, str]:
     """Return the group of a column and its heading within it; empty where it has none, or keeps its own."""
     for pattern, group, heading in _GROUPS:
         if re.fullmatch(pattern, name):
-            return group, re.sub(pattern, heading, name) if heading else ""
+            named = re.sub(pattern, heading, name).replace("_", " ") if heading else ""
+            return re.sub(pattern, group, name), named
     return "", ""
 
 

@@ -1,5 +1,7 @@
 """Write every point of the curves of friction over speed, and their peaks."""
 
+import os
+
 from rubfric.pages.render import write_page
 from rubfric.pages.table import table_page
 from rubfric.results.curves import WORDS, curve_table
@@ -56,4 +58,7 @@ def main(
         "may be as high as there, by these errors. Half: the speeds beside the peak at which friction has fallen to "
         "half of it. The interpolation error is the largest between two points, a share of friction."
     )
-    write_page(table_page(found, f"Friction of rubber {about[0]} on road {about[1]}: peaks", note, group="curve"), page)
+    title = f"Friction of rubber {about[0]} on road {about[1]}: peaks"
+    shown = found.drop(columns=["rubber", "road"])  # in the title
+    beside = {"csv": os.path.basename(peaks), "home": "../index.html"}
+    write_page(table_page(shown, title, note, "curve", **beside), page)
