@@ -85,3 +85,22 @@ def test_script_without_a_guard_runs_side_by_side_and_an_interrupt_ends_all(tmp_
     while any(Path("/proc", one.stem).exists() for one in sleepers):
         assert time.monotonic() < deadline
         time.sleep(0.01)
+
+
+def test_ctrl_c_while_the_server_imports_leaves_no_traceback_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text("import time; open('importing', 'w'); time.sleep(0.3)")
+    script = "import time; from rubfric import workers; workers.start_server('slow'); time.sleep(600)"
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([*sys.path, str(tmp_path)])},
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        while not (tmp_path / "importing").exists():
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        _, err = process.communicate(timeout=60)
+    assert err.count("Traceback") == 1
+    assert err.endswith("KeyboardInterrupt\n")
