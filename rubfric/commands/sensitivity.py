@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
+from rubfric.commands.lists import Numbers, take_negative_lists
 from rubfric.config import campaign as campaigns
 from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
@@ -57,8 +58,12 @@ def add_sensitivity(commands: Any, configs: Callable[[list[Path]], list[Path]]) 
     )
     for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
         command.add_argument(
-            f"--{name}", metavar=f"{name[0].upper()},...", help=f"{what}, with commas between (default: the middle)"
+            f"--{name}",
+            action=Numbers,
+            metavar=f"{name[0].upper()},...",
+            help=f"{what}, with commas between (default: the middle)",
         )
+    take_negative_lists(command)
     command.add_argument("--temperature", type=float, metavar="T", help="of a rubber with shift factors, degC")
     command.add_argument(
         "--scale", default=ALL, metavar="N", help="scale of the road, 1 being the coarsest (default: all at once)"
@@ -97,6 +102,8 @@ def _sensitivity(options: argparse.Namespace) -> int:
         for pressure in _numbers("pressure", "MPa", options.pressure)
     ]
     change = _share(options.range)
+    if options.only == "":
+        raise InvalidInput("--only is empty, but must name numbers with commas between, E,g_1 say")
     if options.output and len(points) > 1:
         raise InvalidInput(f"--output draws one speed and pressure, but {len(points)} are given: leave one")
     for path in options.output or []:
@@ -139,21 +146,16 @@ def _sensitivity(options: argparse.Namespace) -> int:
     return 0
 
 
-def _numbers(name: str, unit: str, text: str | None) -> list[float | None]:
-    if text is None:
-        return [None]
-    try:
-        given = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise InvalidInput(f"--{name} is {text!r}, but must be numbers with commas between, 1,10,100 say") from None
-    return [Number(unit=unit).check(name, one) for one in given]
+def _numbers(name: str, unit: str, given: list[float] | None) -> list[float] | list[None]:
+    return [None] if given is None else [Number(unit=unit).check(name, one) for one in given]
 
 
 def _share(text: str) -> float:
     try:
-        return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
+        share = float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
     except ValueError:
         raise InvalidInput(f"--range is {text!r}, but must be a share, 10% or 0.1 say") from None
+    return Number(low=0.001, high=0.3).check("--range", share)
 
 
 def as_text(found: Sensitivities) -> str:

@@ -51,9 +51,11 @@ def test_prints_what_python_finds_as_text_json_csv_and_picture(
     ("options", "sentence"),
     [
         (["--range", "much"], "--range is 'much', but must be a share, 10% or 0.1 say"),
-        (["--range", "60%"], "change is 0.6, but must be at most 0.3"),
+        (["--range", "60%"], "--range is 0.6, but must be at most 0.3"),
         (["--pressure", "1;2"], "--pressure is '1;2', but must be numbers with commas between, 1,10,100 say"),
         (["--pressure", "1,2", "-o", "a.png"], "--output draws one speed and pressure, but 2 are given: leave one"),
+        (["--only", ""], "--only is empty, but must name numbers with commas between, E,g_1 say"),
+        (["--velocity", "-3,5"], "velocity is -3 mm/s, but must be greater than 0"),
         (["--velocity", "-3"], "velocity is -3 mm/s, but must be greater than 0"),
         (["--scale", "x"], "--scale is 'x', but must be the number of a scale, or all"),
         (["-o", "a.svg"], "--output is a.svg, but its name must end in .pdf or .png"),
