@@ -64,6 +64,8 @@ class Worker(NamedTuple):
         """Return how the process ended that has not said why."""
         self.process.join(_PATIENCE)
         status = self.process.exitcode
+        if status == -signal.SIGINT:
+            return "the job was interrupted: run again, and it begins anew"
         if status is not None and status >= 0:
             return (
                 f"the job's process ended with exit status {status} before it could say why; this is an error of the "
