@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -20,10 +21,11 @@ from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
+from rubfric.outputs import no_file
 from rubfric.rig.cli import add_rig
 from rubfric.rubber.material import PLANES
 from rubfric.scene.procedure import STARTS
-from rubfric.scene.scene import KINEMATICS, Scene
+from rubfric.scene.scene import ALL, KINEMATICS, Scene
 from rubfric.streams import patient_output
 
 _EXAMPLE = """\
@@ -67,14 +69,24 @@ def _run(arguments: list[str] | None) -> int:
             return 0
         return int(options.run(options))
     except (InvalidInput, FileNotFoundError) as error:
-        print(f"rubfric: {error}", file=sys.stderr)
+        print(f"rubfric: {_sentence(error)}", file=sys.stderr)
         return 2
     except (RubfricError, OSError) as error:
-        print(f"rubfric: {error}", file=sys.stderr)
+        print(f"rubfric: {_sentence(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("rubfric: interrupted", file=sys.stderr)
         return 130
+
+
+def _sentence(error: Exception) -> str:
+    """Return what to print of an error; of one of the system, what it has to say of its file."""
+    if not isinstance(error, OSError) or not error.filename or not error.strerror:
+        return str(error)
+    path = Path(os.fsdecode(error.filename))
+    if isinstance(error, FileNotFoundError):
+        return no_file(path)
+    return f"{path} cannot be read or written ({error.strerror})"
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -139,11 +151,10 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _scale(text: str) -> int | str:
-    """Return the number of a scale, or the word that is no number."""
-    try:
-        return int(text)
-    except ValueError:
-        return text
+    """Return the number of a scale, or the word for all of them."""
+    if text != ALL and not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text!r} is neither the number of a scale nor {ALL!r}")
+    return text if text == ALL else int(text)
 
 
 def _add_scene(command: argparse.ArgumentParser, required: bool = True) -> None:

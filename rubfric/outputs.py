@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import os
 from pathlib import Path
 
 from rubfric.errors import InvalidInput
@@ -42,3 +44,12 @@ def check_output(output: Path, kind: str, ours: tuple[str, ...]) -> None:
             first = stream.readline()
         if not any(words in first for words in ours):
             raise InvalidInput(f"{output} exists and was not written by this command: name another with --output")
+
+
+def no_file(path: str | os.PathLike[str]) -> str:
+    """Say that a file is missing, and which one beside it, of a like name and the same suffix, may have been meant."""
+    missing = Path(path)
+    names = [one.stem for one in missing.parent.glob(f"*{missing.suffix}")] if missing.suffix else []
+    close = difflib.get_close_matches(missing.stem, names, n=1)
+    meant = f" (did you mean {missing.with_name(close[0] + missing.suffix)}?)" if close else ""
+    return f"there is no file {missing}{meant}"

@@ -8,13 +8,14 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
 import rubfric
 from rubfric.checksums import fingerprint
 from rubfric.config.campaign import Campaign
-from rubfric.config.pairs import not_covered
+from rubfric.config.pairs import never_covered
 from rubfric.config.temperature import rubber_at
 from rubfric.errors import BrokenResult
 from rubfric.results import answer, kept
@@ -37,9 +38,9 @@ _SHARED = ("material", MATERIALS, "numerics", COLLECTED)
 
 def run(
     campaign: Campaign,
-    velocities: Sequence[float] | None = None,
-    pressures: Sequence[float] | None = None,
-    temperatures: Sequence[float] | None = None,
+    velocities: float | Sequence[float] | None = None,
+    pressures: float | Sequence[float] | None = None,
+    temperatures: float | Sequence[float] | None = None,
     jobs: int | None = None,
     progress: bool | Callable[[str], None] = True,
 ) -> xr.Dataset:
@@ -53,11 +54,11 @@ def run(
     ----------
     campaign : Campaign
         As from ``rubfric.load``.
-    velocities : sequence of float, optional
+    velocities : float or sequence of float, optional
         mm/s; by default the grid's, as for the following.
-    pressures : sequence of float, optional
+    pressures : float or sequence of float, optional
         Nominal, MPa.
-    temperatures : sequence of float, optional
+    temperatures : float or sequence of float, optional
         degC, of a rubber with shift factors.
     jobs : int, optional
         How many scenes at a time; as many as there are cores by default.
@@ -105,9 +106,9 @@ def run(
 
 def friction(
     campaign: Campaign,
-    velocities: Sequence[float] | None = None,
-    pressures: Sequence[float] | None = None,
-    temperatures: Sequence[float] | None = None,
+    velocities: float | Sequence[float] | None = None,
+    pressures: float | Sequence[float] | None = None,
+    temperatures: float | Sequence[float] | None = None,
     jobs: int | None = None,
     progress: bool | Callable[[str], None] = False,
 ) -> pd.DataFrame:
@@ -140,21 +141,21 @@ def friction(
 
 def at_points(
     campaign: Campaign,
-    velocities: Sequence[float] | None = None,
-    pressures: Sequence[float] | None = None,
-    temperatures: Sequence[float] | None = None,
+    velocities: float | Sequence[float] | None = None,
+    pressures: float | Sequence[float] | None = None,
+    temperatures: float | Sequence[float] | None = None,
 ) -> Campaign:
     """Return a campaign of the same rubber and road on another grid, without its other studies.
 
     Parameters
     ----------
     campaign : Campaign
-    velocities, pressures, temperatures : sequence of float, optional
+    velocities, pressures, temperatures : float or sequence of float, optional
         mm/s, MPa and degC, in any order; by default the grid's.
     """
     warm = campaign.temperatures
     if temperatures is not None:
-        warm = Items(each=Number(unit="degC", low=-LARGEST)).check("temperatures", [*temperatures])
+        warm = Items(each=Number(unit="degC", low=-LARGEST)).check("temperatures", _list(temperatures))
         for one in warm:
             rubber_at(campaign.material, campaign.shift, one)  # refuses one that the rubber has not
     return replace(
@@ -170,8 +171,12 @@ def at_points(
     )
 
 
-def _positive(name: str, unit: str, values: Sequence[float]) -> tuple[float, ...]:
-    return Items(each=Number(unit=unit)).check(name, [*values])
+def _list(values: float | Sequence[float]) -> list[float]:
+    return [values] if isinstance(values, (int, float, np.number)) else [*values]
+
+
+def _positive(name: str, unit: str, values: float | Sequence[float]) -> tuple[float, ...]:
+    return Items(each=Number(unit=unit)).check(name, _list(values))
 
 
 def _solved(
@@ -224,6 +229,6 @@ def _about(campaign: Campaign) -> dict[str, str]:
         "plane": campaign.plane,
         "kinematics": campaign.kinematics,
         "multiscale": campaign.multiscale.way,
-        "not_covered": "; ".join(not_covered(campaign)),
+        "not_covered": "; ".join(never_covered(campaign)),
         "code_digest": code(SOLVER),
     }

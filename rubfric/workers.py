@@ -15,7 +15,7 @@ import traceback
 import types
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from multiprocessing import forkserver
+from multiprocessing import forkserver, resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, NamedTuple, TypeVar
@@ -64,6 +64,8 @@ class Worker(NamedTuple):
         """Return how the process ended that has not said why."""
         self.process.join(_PATIENCE)
         status = self.process.exitcode
+        if status == -signal.SIGINT:
+            return "the job was interrupted: run again, and it begins anew"
         if status is not None and status >= 0:
             return (
                 f"the job's process ended with exit status {status} before it could say why; this is an error of the "
@@ -90,7 +92,9 @@ def start_server(*preload: str) -> None:
         os.environ.update(_ONE_THREAD)
         try:
             multiprocessing.set_forkserver_preload(list(preload))
-            forkserver.ensure_running()
+            resource_tracker.ensure_running()  # lets interrupts through again, which is too early within the block
+            with _interrupts_held():
+                forkserver.ensure_running()
         finally:
             for name, value in before.items():
                 if value is None:
@@ -193,11 +197,25 @@ def _serve(connection: Connection) -> None:
     """Call the functions that arrive, one by one, until the caller closes the connection."""
     os.environ.update(_ONE_THREAD)  # for libraries that the server has not loaded yet
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # which the server holds back
     with contextlib.suppress(EOFError):
         while True:
             function, arguments = connection.recv()
             connection.send("begun")
             connection.send(function(*arguments))
+
+
+@contextlib.contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold interrupts back within the block, and for ever in a process that begins in it.
+
+    Ctrl-C reaches all processes of a terminal: a server that still imports modules would end with a traceback.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _open_standard_files() -> None:

@@ -113,7 +113,7 @@ for row in table.itertuples():
 
 # %%
 # That was small strain, to be quick. Over the paper's grid in finite strain the bare
-# sum misses the whole road by 22 % at the median and by up to 71 %
+# sum misses the whole road by 35 % at the median and by up to 75 %
 # (:doc:`/multiscale`). This is the one thing to take away from a reproduction: the
 # curves of the single scales hold, their sum is a model of its own.
 #

@@ -60,7 +60,7 @@ def add_export(commands: Any) -> None:
         "and Ansys, which interpolate linearly in speed; else 0, none)",
     )
     command.add_argument(
-        "--material", type=int, default=1, metavar="N", help="number of the material of contact in Ansys (default: 1)"
+        "--material", type=int, metavar="N", help="number of the material of contact in Ansys (default: 1)"
     )
     command.add_argument("--output", "-o", type=Path, metavar="FILE", help="write to this file (default: print)")
     command.set_defaults(run=_export)
@@ -70,7 +70,9 @@ def _export(options: argparse.Namespace) -> int:
     decks = options.to in ("abaqus", "ansys")
     wanted = options.per_decade if options.per_decade is not None else _PER_DECADE if decks else 0
     per_decade = Integer(low=0, high=1000).check("--per-decade", wanted)
-    material = Integer(low=1).check("--material", options.material)
+    if options.material is not None and options.to != "ansys":
+        raise InvalidInput(f"--material numbers a material of Ansys: leave it out with --to {options.to}")
+    material = Integer(low=1).check("--material", 1 if options.material is None else options.material)
     if options.output:
         check_output(options.output, "table", (_OURS, "HDF"))
     elif options.to == "netcdf":

@@ -94,6 +94,8 @@ def _sensitivity(options: argparse.Namespace) -> int:
     loads: list[Any] = [Number(unit="MPa").check("pressure", one) for one in options.pressure or ()]
     points = list(product(speeds or [None], loads or [None]))
     change = _share(options.range)
+    if options.only == "":
+        raise InvalidInput("--only is empty, but must name numbers with commas between, E,g_1 say")
     if options.output and len(points) > 1:
         raise InvalidInput(f"--output draws one speed and pressure, but {len(points)} are given: leave one")
     for path in options.output or []:
@@ -134,9 +136,10 @@ def _sensitivity(options: argparse.Namespace) -> int:
 
 def _share(text: str) -> float:
     try:
-        return float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
+        share = float(text.removesuffix("%")) / (100.0 if text.endswith("%") else 1.0)
     except ValueError:
         raise InvalidInput(f"--range is {text!r}, but must be a share, 10% or 0.1 say") from None
+    return Number(low=0.001, high=0.3).check("--range", share)
 
 
 def as_text(found: Sensitivities) -> str:

@@ -446,9 +446,9 @@ class Campaign:
 
     def run(
         self,
-        velocities: Sequence[float] | None = None,
-        pressures: Sequence[float] | None = None,
-        temperatures: Sequence[float] | None = None,
+        velocities: float | Sequence[float] | None = None,
+        pressures: float | Sequence[float] | None = None,
+        temperatures: float | Sequence[float] | None = None,
         jobs: int | None = None,
         progress: bool | Callable[[str], None] = True,
     ) -> xr.Dataset:
@@ -456,7 +456,7 @@ class Campaign:
 
         Parameters
         ----------
-        velocities, pressures, temperatures : sequence of float, optional
+        velocities, pressures, temperatures : float or sequence of float, optional
             mm/s, nominal MPa and degC; by default the grid's.
         jobs : int, optional
             How many scenes at a time; as many as there are cores by default.

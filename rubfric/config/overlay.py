@@ -51,7 +51,9 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {_no_text(error)}") from error
     except RecursionError as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: lists or mappings are nested too deeply") from error
-    except (*_NO_YAML, IsADirectoryError) as error:
+    except IsADirectoryError as error:
+        raise InvalidInput(f"{os.fspath(path)} is a folder, but must be a file in YAML") from error
+    except _NO_YAML as error:
         raise InvalidInput(f"{os.fspath(path)} is not valid YAML: {' '.join(str(error).split())}") from error
     if wrong:
         raise InvalidInput(f"{os.fspath(path)} {wrong}")
@@ -208,7 +210,8 @@ def overlaid(configs: Iterable[str | os.PathLike[str] | Mapping[str, Any]], keys
     for config in configs:
         entry = config if isinstance(config, Mapping) else read_yaml(config)
         if not isinstance(entry, Mapping):
-            raise InvalidInput(f"{config} holds {shown(entry)}, but must hold the keys {', '.join(keys)}")
+            held = "nothing" if entry is None else shown(entry)
+            raise InvalidInput(f"{config} holds {held}, but must hold the keys {', '.join(keys)}")
         entries.append(entry)
     if not entries:
         raise InvalidInput("no config was given: name at least one file")

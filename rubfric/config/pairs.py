@@ -16,6 +16,12 @@ def which(campaign: Campaign) -> str:
     return f"of {' and '.join(named)}, this is {campaign.material.name} on {campaign.road_name}, the first"
 
 
+def never_covered(campaign: Campaign) -> list[str]:
+    """Return what no error of a campaign's friction covers: what ``not_covered`` says, and the law of the rubber."""
+    law = "finite strain" if campaign.kinematics == "small" else "the choice of the finite-strain law"
+    return [*not_covered(campaign), law]
+
+
 def not_covered(campaign: Campaign) -> list[str]:
     """Return what no error of the friction of one rubber on one road covers, though it would differ for another."""
     rubber, road, fitted, survey = campaign.material.name, campaign.road_name, campaign.fitted, campaign.survey

@@ -207,7 +207,7 @@ def lookup_dataset(table: pd.DataFrame, about: list[str]) -> xr.Dataset:
     axes = {column: name for column, name in names.items() if column in table}
     ways = list(dict.fromkeys(table[WAY]))
     numbers = table.assign(**{WAY: [float(ways.index(way)) for way in table[WAY]]})
-    found = numbers.set_index([*axes]).to_xarray()
+    found = numbers.astype(float).set_index([*axes]).to_xarray()
     found = found.rename({column: name for column, (name, _, _) in axes.items()})
     found = found.rename({_FRICTION: "friction_coefficient", _ERROR: "friction_coefficient_error"})
     for name, unit, long_name in axes.values():

@@ -99,7 +99,8 @@ def read_table(path: str | os.PathLike[str], words: Sequence[str], signed: bool 
         table = pd.read_csv(path, dtype=dict.fromkeys(words, str), keep_default_na=False, na_values=["", "nan"])
     except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
         reason = " ".join(str(error).split())
-        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}; {AGAIN}") from error
+        again = f"; {AGAIN}" if signed else ""  # another may be the user's only copy
+        raise BrokenResult(f"{os.fspath(path)} is no readable table: {reason}{again}") from error
     return _replaced(table, _AS_TEXT, "")
 
 

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
-from rubfric.checks import suggestion
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid
 from rubfric.errors import InvalidInput
+from rubfric.outputs import no_file
 
 
 def check_given(arguments: Sequence[str]) -> None:
@@ -29,8 +28,7 @@ def check_given(arguments: Sequence[str]) -> None:
         except InvalidInput as error:
             sys.exit(f"The config is wrong: {error}.")
         except FileNotFoundError:
-            beside = [str(one) for one in Path(path).parent.glob("*.yaml")]
-            sys.exit(f"The config is wrong: there is no file {path}{suggestion(path, beside)}.")
+            sys.exit(f"The config is wrong: {no_file(path)}.")
         except OSError as error:
             sys.exit(f"The config is wrong: {path} cannot be read ({error.strerror}).")
 

@@ -111,6 +111,13 @@ def test_bad_config_gives_one_sentence(tmp_path: Path, capsys: pytest.CaptureFix
     error = capsys.readouterr().err
     assert error.startswith("rubfric: grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect")
     assert error.count("\n") == 1
+    for given, says in {
+        tmp_path / "bod.yaml": f"there is no file {tmp_path}/bod.yaml (did you mean {overlay}?)",
+        tmp_path / "street.yaml": f"there is no file {tmp_path}/street.yaml",
+        tmp_path: f"{tmp_path} is a folder, but must be a file in YAML",
+    }.items():
+        assert cli.main([*SCENE, "--config", str(given)]) == 2
+        assert capsys.readouterr().err == f"rubfric: {says}\n"
 
 
 @pytest.mark.parametrize(
@@ -118,6 +125,7 @@ def test_bad_config_gives_one_sentence(tmp_path: Path, capsys: pytest.CaptureFix
     [
         (["simulate", "--scale", "1", "--velocity", "1"], "required: --pressure"),
         ([*SCENE, "--velocity", "fast"], "invalid float value: 'fast'"),
+        ([*SCENE, "--scale", "1.5"], "'1.5' is neither the number of a scale nor 'all'"),
         ([*SCENE, "--plane", "flat"], "invalid choice: 'flat'"),
         ([*SCENE, "--kinematics", "large"], "invalid choice: 'large'"),
         (["simulat"], "invalid choice: 'simulat'"),

@@ -28,6 +28,10 @@ def meet(task):
 def fail(task):
     raise NotConverged(task, 3, 0.5, "residual", "less load")
 
+def interrupt(task):
+    os.kill(os.getpid(), 2)
+    time.sleep(600)
+
 def sleep(task):
     Path(f"{os.getpid()}.sleeps").touch()
     time.sleep(600)
@@ -51,10 +55,11 @@ try:
 except NotConverged as error:
     assert (error.scene, error.advice) == ("scene1", "less load") and "functions.py" in error.__notes__[0]
     print("failed")
-try:
-    list(as_completed(os._exit, [7], jobs=1))
-except WorkerDied as error:
-    print(error)
+for function, task in ((os._exit, 7), (functions.interrupt, 0)):
+    try:
+        list(as_completed(function, [task], jobs=1))
+    except WorkerDied as error:
+        print(error)
 print("asleep", flush=True)
 list(as_completed(functions.sleep, [1, 2], jobs=2))
 """
@@ -74,6 +79,7 @@ def test_script_without_a_guard_runs_side_by_side_and_an_interrupt_ends_all(tmp_
         assert script.stdout is not None
         assert script.stdout.readline() == "failed\n"
         assert script.stdout.readline().startswith("task 1: the job's process ended with exit status 7 before")
+        assert script.stdout.readline().startswith("task 1: the job was interrupted: ")
         assert script.stdout.readline() == "asleep\n"
         while len(sleepers := list(tmp_path.glob("*.sleeps"))) < 2:
             time.sleep(0.01)
@@ -85,3 +91,22 @@ def test_script_without_a_guard_runs_side_by_side_and_an_interrupt_ends_all(tmp_
     while any(Path("/proc", one.stem).exists() for one in sleepers):
         assert time.monotonic() < deadline
         time.sleep(0.01)
+
+
+def test_ctrl_c_while_the_server_imports_leaves_no_traceback_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text("import time; open('importing', 'w'); time.sleep(0.3)")
+    script = "import time; from rubfric import workers; workers.start_server('slow'); time.sleep(600)"
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([*sys.path, str(tmp_path)])},
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        while not (tmp_path / "importing").exists():
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        _, err = process.communicate(timeout=60)
+    assert err.count("Traceback") == 1
+    assert err.endswith("KeyboardInterrupt\n")

@@ -96,7 +96,8 @@ def sensitivity(
     chosen = _chosen(parameters(scene, rubber), only)
     base = solved(scene)
     fine, coarse = base.cells
-    counted = f"{len(chosen)} parameters: {2 * len(chosen)} scenes on {fine:,} cells, {4 * len(chosen)} on {coarse:,}"
+    named = "1 parameter" if len(chosen) == 1 else f"{len(chosen)} parameters"
+    counted = f"{named}: {2 * len(chosen)} scenes on {fine:,} cells, {4 * len(chosen)} on {coarse:,}"
     progress(counted + (f", and {sobol * (len(chosen) + 2)} for Sobol' indices" if sobol else ""))
     found, notes = _differences(base, chosen, math.log1p(change), progress, jobs)
     table = _table(base, chosen, found, notes)

@@ -70,6 +70,10 @@ def test_wrong_use_is_refused_in_a_sentence(results: Path, tmp_path: Path, capsy
     for options, sentence in (
         (["--to", "netcdf"], "--output is missing: netCDF cannot be printed"),
         (["--to", "abaqus", "-o", str(own)], "exists and was not written by this command"),
+        (
+            ["--to", "abaqus", "--material", "3"],
+            "--material numbers a material of Ansys: leave it out with --to abaqus",
+        ),
         (["--to", "ansys", "--material", "0"], "--material is 0, but must be a whole number of at least 1"),
         (["--to", "csv", "--temperature", "20"], "temperature is 20 degC, but the table has no temperatures"),
     ):

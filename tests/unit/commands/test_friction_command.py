@@ -56,6 +56,8 @@ def test_prints_the_sum_over_the_scales_with_its_errors(config: Path, capsys: py
     found = json.loads(out)
     assert found["rows"][0]["friction_total"] == pytest.approx(expected, rel=1e-12)
     assert found["rows"][0]["friction_road_error"] is None
+    about = rubfric.run(campaign, 100, 0.5, progress=False).attrs
+    assert about["not_covered"] == "; ".join(found["not_covered"])
     assert found["rows"][0]["way"] == "sum"
 
     assert cli.main([*POINT, "--config", str(config), "--csv"]) == 0
@@ -87,7 +89,7 @@ def test_files_that_do_not_fit_are_solved_anew(config: Path) -> None:
 
 def test_dataset_holds_the_table_and_every_scale(config: Path) -> None:
     campaign = rubfric.load(config, {"road": "two", "roads": {"two": ROAD}})
-    found = campaign.run([100, 10], [0.5], jobs=1, progress=False)
+    found = campaign.run([100, 10], 0.5, jobs=1, progress=False)
     table = rubfric.friction(campaign, [10, 100], [0.5])
     assert dict(found.sizes) == {"pressure": 1, "velocity": 2, "scale": 2}
     assert found["friction_total"].values.ravel().tolist() == table["friction_total"].tolist()

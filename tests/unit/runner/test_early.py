@@ -15,7 +15,7 @@ from rubfric.runner.early import check_given
         (b"# gr\xfcn\nplane: strain\n", "mine.yaml is not valid YAML: "),
         ("plane: strain\n".encode("utf-16"), "mine.yaml is not valid YAML: "),
         (b"plane:\tstrain\n\t- x", "mine.yaml is not valid YAML: "),
-        (b"# nothing yet\n", "mine.yaml holds None, but must hold the keys results, "),
+        (b"# nothing yet\n", "mine.yaml holds nothing, but must hold the keys results, "),
         (b"plane: stress\nplane: strain\n", "mine.yaml has the key 'plane' twice"),
         (None, "there is no file mine.yaml (did you mean mines.yaml?)."),
     ],
