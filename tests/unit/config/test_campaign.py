@@ -207,7 +207,7 @@ def test_file_that_is_no_yaml_is_refused_by_name(tmp_path: Path, content: bytes)
         load(DEFAULT, broken)
 
 
-@pytest.mark.parametrize(("content", "held"), [("", "None"), ("- 1\n- 2\n", r"\[1, 2\]"), ("rubber", "'rubber'")])
+@pytest.mark.parametrize(("content", "held"), [("", "nothing"), ("- 1\n- 2\n", r"\[1, 2\]"), ("rubber", "'rubber'")])
 def test_file_that_holds_no_mapping_is_refused_by_name(tmp_path: Path, content: str, held: str) -> None:
     wrong = tmp_path / "wrong.yaml"
     wrong.write_text(content)
