@@ -334,3 +334,55 @@ def follow(workflow):
     )
     attach(run, logger, silence=Quietness.RULES in quiet)
     return run
+
+
+def curve_file(name):
+    """Return where friction at the speeds that are added to a curve belongs."""
+    return f"{RESULTS}/refined/{RUBBER}/{ROAD}/{name}.csv"
+
+
+def scenes_of_curves():
+    """Return the results that each curve of friction over speed is made of, and their scenes, by the curve's name.
+
+    A scale's own at one pressure and temperature; and all of them with those of the whole road.
+    """
+    curves = {}
+    for name, scene in SCENES.items():
+        if scene.aspect != CAMPAIGN.aspect or scene.velocity not in CAMPAIGN.velocities:
+            continue
+        place = scene.name.split("_aspect")[0].split("_p", 1)[1]
+        for curve in (f"scale{scene.scale}_p{place}", f"all_p{place}"):
+            of = curves.setdefault(curve, {"scales": {}, "whole": {}, "scenes": {}})
+            of["scales"][scene_file(name)] = scene.digest
+            of["scenes"][scene.scale] = scene
+    for name, scene in WHOLE.items():
+        place = scene.name.split("_aspect")[0].split("_p", 1)[1]
+        draw, of = name.removesuffix(scene.name), curves[f"all_p{place}"]
+        of["whole"].setdefault(draw, {})[whole_file(name)] = scene.digest
+        of["scenes"][draw] = scene
+    return curves
+
+
+def sliding(curve):
+    """Return what is slid over at every speed of a curve, as plain values."""
+    scenes = {
+        of: replace(one, velocity=1.0) for of, one in CURVES[curve]["scenes"].items()
+    }
+    scales = [of for of in scenes if of in CAMPAIGN.scales]
+    return {
+        "scales": [scenes[scale].parameters() for scale in scales],
+        "whole": {
+            draw: scenes[draw].parameters()
+            for draw in scenes
+            if draw not in CAMPAIGN.scales
+        },
+        "road": (
+            ROADS[scenes[scales[0]].temperature] if curve.startswith("all_") else None
+        ),
+    }
+
+
+def named(words, page="", table="", data=""):
+    """Return an entry of the page of all results: words, and files by kind."""
+    files = {"page": page, "CSV": table, "netCDF": data}
+    return words, {kind: path for kind, path in files.items() if path}

@@ -97,6 +97,7 @@ rule campaign_figure:
         figure="|".join(CAMPAIGN_FIGURES),
     localrule: True
     params:
+        figure=lambda wildcards: wildcards.figure,
         choice=lambda wildcards: CAMPAIGN_FIGURES[wildcards.figure],
         digests=[COLLECTED],
         temperature=TEMPERATURE,
@@ -106,13 +107,10 @@ rule campaign_figure:
         jobs.run(
             input.script,
             log[0],
-            figure=wildcards.figure,
             results=input.results,
-            choice=params.choice,
             outputs=list(output),
-            digests=params.digests,
-            temperature=params.temperature,
-            curves=str(input.curves) or None,
+            curves=str(input.curves),
+            **dict(params.items()),
         )
 
 
@@ -171,6 +169,7 @@ rule total_figure:
         figure="|".join(TOTAL_FIGURES),
     localrule: True
     params:
+        figure=lambda wildcards: wildcards.figure,
         choice=lambda wildcards: TOTAL_FIGURES[wildcards.figure],
         collected=COLLECTED,
         temperature=lambda wildcards: (
@@ -182,14 +181,11 @@ rule total_figure:
         jobs.run(
             input.script,
             log[0],
-            figure=wildcards.figure,
             table=input.table,
             campaign=input.campaign,
-            collected=params.collected,
-            choice=params.choice,
-            temperature=params.temperature,
-            outputs=list(output),
-            added=list(input.added),
+            outputs=[*output],
+            added=[*input.added],
+            **dict(params.items()),
         )
 
 

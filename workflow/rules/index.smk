@@ -1,10 +1,4 @@
 # One page that joins all results: it lists what this config asks for, and is written again after any of it.
-def named(words, page="", table="", data=""):
-    """Return an entry of the page: words, and files by kind."""
-    files = {"page": page, "CSV": table, "netCDF": data}
-    return words, {kind: path for kind, path in files.items() if path}
-
-
 SHOWN_FIGURES = {
     **FIGURE_WORDS,
     "fig5": "friction settling in time",

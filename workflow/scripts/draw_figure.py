@@ -19,7 +19,7 @@ def main(
     outputs: list[str],
     digests: list[str] | None = None,
     temperature: float | None = None,
-    curves: str | None = None,
+    curves: str = "",
 ) -> None:
     """Draw the figure and save it under every path of ``outputs``.
 
@@ -37,8 +37,8 @@ def main(
         Digests that single results must have, or what the collection is known by.
     temperature : float, optional
         What the figure shows of several, degC, and names.
-    curves : str, optional
-        Path of the table of curves (CSV), for Fig. 6 where speeds were added.
+    curves : str
+        Path of the table of curves (CSV), for Fig. 6 where speeds were added; empty elsewhere.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
     if curves:
