@@ -104,6 +104,17 @@ def rounded(value: float, digits: int = SIGNIFICANT_DIGITS) -> float:
     return float(f"{value:.{digits}g}")
 
 
+def decimals(value: float, digits: int) -> int:
+    """Return how many decimals show so many significant digits of a positive number; below zero to round before them.
+
+    Parameters
+    ----------
+    value : float
+    digits : int
+    """
+    return digits - 1 - int(f"{value:.{digits - 1}e}".partition("e")[2])
+
+
 def written(value: float) -> str:
     """Return the canonical text of a number, for names of scenes and files: 0.1, 10000, 1e-9."""
     canonical = number("value", value)

@@ -11,6 +11,7 @@ import rubfric
 from rubfric.commands.areal import add_areal, slide
 from rubfric.commands.command_parser import CommandParser
 from rubfric.commands.completion import SHELLS, PrintCompletion
+from rubfric.commands.configs import add_configs, warn
 from rubfric.commands.export import add_export
 from rubfric.commands.friction import add_friction
 from rubfric.commands.road import add_road
@@ -19,7 +20,6 @@ from rubfric.commands.sensitivity import add_sensitivity
 from rubfric.config import campaign as campaigns
 from rubfric.config.begin import begin
 from rubfric.config.default import base_configs
-from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput, NotWritten, RubfricError
 from rubfric.outputs import no_file
@@ -192,13 +192,7 @@ def _add_scene(command: argparse.ArgumentParser, required: bool = True) -> None:
     command.add_argument(
         "--accuracy", type=float, metavar="A", help="relative accuracy of friction, 0.01 say (default: the config's)"
     )
-    command.add_argument(
-        "--config",
-        action="append",
-        type=Path,
-        metavar="FILE",
-        help="YAML config to lay over config/config.yaml, with another rubber, say; may be given again",
-    )
+    add_configs(command)
     command.add_argument("--output", type=Path, metavar="FILE", help="write fields and scalars to this netCDF file")
 
 
@@ -208,10 +202,7 @@ def _read(options: argparse.Namespace) -> tuple[campaigns.Campaign, Scene]:
     names = ("scale", "velocity", "pressure", "aspect", "plane", "kinematics", "preset", "accuracy", "temperature")
     scene = campaign.scene(**{name: getattr(options, name) for name in names})
     warm = None if scene.temperature is None else {scene.temperature: scene.material}
-    for sentence in check_plausible(campaign.material, campaign.road, [scene.velocity], [scene.pressure], warm):
-        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    warn(campaign, check_plausible(campaign.material, campaign.road, [scene.velocity], [scene.pressure], warm))
     if options.output and options.output.is_dir():
         raise InvalidInput(f"--output is the folder {options.output}, but must be a file")
     return campaign, scene

@@ -12,14 +12,13 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator
 
 from rubfric.config.campaign import Campaign
 from rubfric.errors import InvalidInput
 from rubfric.figures import fig4, panels, style
 from rubfric.figures import sensitivity as tornado
-from rubfric.figures.bands import draw_band, upper
+from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.totals import totals
@@ -32,7 +31,6 @@ from rubfric.studies.sensitivity.result import Sensitivities
 
 # Height of a panel, inches; of so many panels each is wide enough for ticks between decades.
 _HEIGHT, _WIDE = 2.7, 2
-_BAND: dict[str, Any] = {"facecolor": "0.3", "alpha": 0.25, "linewidth": 0.0, "label": "Error"}
 
 
 class Picture(Figure):
@@ -133,7 +131,7 @@ def friction(
     if len(tables) > 1:
         panels.entitle(axes, [f"{written(float(one))} \N{DEGREE SIGN}C" for one in warm if one is not None])
     handles = panels.line_handles([f"{written(pressure)} MPa" for pressure in chosen], looks)
-    handles += [Patch(**_BAND), *peak_handles(*axes)]
+    handles += [band_handle("Error"), *peak_handles(*axes)]
     words = ("Sliding speed (mm/s)", "Friction coefficient")
     if figure is None:
         axes[0].set(xlabel=words[0], ylabel=words[1])

@@ -1,4 +1,4 @@
-"""Progress of a run of the workflow: what is done, what remains, how long that may take, what was slow or failed."""
+"""Progress of many jobs: what is done, what remains, how long that may take, what was slow or failed."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ _WORDS = {
     "whole_scene": ("scene of the whole road", "scenes of the whole road"),
     "areal_scene": ("scene on an areal road", "scenes on areal roads"),
     "march": ("march", "marches"),
+    "refined_curve": ("refined curve", "refined curves"),
     "reading": ("batch of other readings", "batches of other readings"),
     "table": ("table", "tables"),
     "figure": ("figure", "figures"),

@@ -73,6 +73,11 @@ def patient_output() -> Iterator[None]:
         patient.flush()
 
 
+def pause(elapsed: float) -> float:
+    """Return how long to wait, s, before the next line on how far something is, after so many seconds in all."""
+    return min(max(_SHORTEST, 0.05 * elapsed), _LONGEST)
+
+
 class OneLine:
     """A line that says how far something is: written over itself on a terminal or in a notebook, else now and then.
 
@@ -102,7 +107,7 @@ class OneLine:
         now = self._clock()
         if self._stream is None or not (self._over or last or now >= self._next):
             return
-        self._next = now + min(max(_SHORTEST, 0.05 * (now - self._began)), _LONGEST)
+        self._next = now + pause(now - self._began)
         with suppress(OSError, ValueError):  # a terminal that is gone
             if self._over:
                 text = text if last else text[: shutil.get_terminal_size().columns - 1]

@@ -41,7 +41,10 @@ _COLOURS = {
     ),
     "rubber road columns profile dma decks scene config": ("#0f766e", "#effaf8"),
     "mechanics": ("#332288", "#f3f1fb"),
-    "results simulation areal_simulation areal_plane marching scene_jobs total_simulation": ("#1a6e8e", "#eef7fb"),
+    "results simulation areal_simulation areal_plane marching scene_jobs total_simulation curve_simulation": (
+        "#1a6e8e",
+        "#eef7fb",
+    ),
     "rig studies figures plot": ("#a16207", "#fdf8ea"),
     "pages commands cli runner": ("#882255", "#fbf0f5"),
 }

@@ -5,16 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
 from rubfric.checks import written
-from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.commands.configs import add_configs, warn
+from rubfric.commands.lists import add_points
+from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
-from rubfric.config.pairs import never_covered, which
+from rubfric.config.pairs import never_covered
 from rubfric.config.plausibility import check_plausible
 from rubfric.config.temperature import rubber_at
 
@@ -61,21 +62,8 @@ def add_friction(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> 
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    command.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
-    for name, what in (
-        ("velocity", "sliding speeds, mm/s"),
-        ("pressure", "nominal pressures, MPa"),
-        ("temperature", "temperatures of a rubber with shift factors, degC"),
-    ):
-        command.add_argument(
-            f"--{name}",
-            action=Numbers,
-            metavar=f"{name[0].upper()},...",
-            help=f"{what}, with commas between (default: the grid's)",
-        )
-    take_negative_lists(command)
+    add_configs(command)
+    add_points(command, "velocity", "pressure", "temperature", default="the grid's")
     form = command.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON, for scripts")
     form.add_argument("--csv", action="store_true", help="print CSV with the columns of tables/friction_total.csv")
@@ -93,10 +81,7 @@ def _friction(options: argparse.Namespace) -> int:
 
     asked = at_points(campaign, *points)
     warm = {one: rubber_at(asked.material, asked.shift, one) for one in asked.temperatures}
-    for sentence in check_plausible(asked.material, asked.road, asked.velocities, asked.pressures, warm):
-        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    warn(campaign, check_plausible(asked.material, asked.road, asked.velocities, asked.pressures, warm))
     table = friction(asked, jobs=options.jobs, progress=not options.quiet)
     if options.csv:
         print(table.to_csv(index=False, float_format="%.6g"), end="")
@@ -121,8 +106,6 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
     for (_, row), share in zip(table.iterrows(), shares.to_numpy(), strict=True):
         cells = [written(row[name]) if name in _AXES else _number(row[name]) for name in heads]
         rows.append([*cells, row["way"], *("-" if math.isnan(one) else f"{one:.1%}" for one in share)])
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     notes = table.loc[table["note"] != "", ["way", "note"]].value_counts(sort=False)
     about = [f"{way}, {count} of {len(table)} points: {note}" for (way, note), count in notes.items()]
     if warned := int((table["warnings"] > 0).sum()):
@@ -131,7 +114,7 @@ def as_text(campaign: Campaign, table: pd.DataFrame) -> str:
         [
             campaign.words(),
             "",
-            *lines,
+            *aligned(rows),
             "",
             *about,
             "error: absolute, the sum of the parts beside it; scale 1, ...: shares of the sum over the scales",
@@ -144,10 +127,6 @@ def _shares(table: pd.DataFrame) -> pd.DataFrame:
     """Return every scale's share of the sum over the scales; NaN where that is zero or not known."""
     total = table["friction_sum"]
     return table.filter(regex=f"^{_SCALE}").div(total.where(total != 0.0), axis=0)
-
-
-def _or_null(value: Any) -> Any:
-    return None if isinstance(value, float) and math.isnan(value) else value
 
 
 def _number(value: float) -> str:
@@ -164,10 +143,9 @@ def as_json(campaign: Campaign, table: pd.DataFrame) -> str:
     table : pandas.DataFrame
         As from ``rubfric.total_simulation.friction``.
     """
-    shares = _shares(table).to_numpy().tolist()
     rows = [
-        {name: _or_null(value) for name, value in row.items()} | {"shares": [_or_null(one) for one in share]}
-        for row, share in zip(table.to_dict("records"), shares, strict=True)
+        with_nulls(row) | {"shares": [*with_nulls(share).values()]}
+        for row, share in zip(table.to_dict("records"), _shares(table).to_dict("records"), strict=True)
     ]
     about = {
         "program": f"rubfric {rubfric.__version__}",

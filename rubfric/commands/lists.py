@@ -38,6 +38,30 @@ class Numbers(argparse.Action):
         setattr(namespace, self.dest, found)
 
 
+_WHAT = {
+    "velocity": "sliding speeds, mm/s",
+    "pressure": "nominal pressures, MPa",
+    "temperature": "temperatures of a rubber with shift factors, degC",
+}
+
+
+def add_points(command: argparse.ArgumentParser, *names: str, default: str) -> None:
+    """Add options that take lists.
+
+    Parameters
+    ----------
+    command : argparse.ArgumentParser
+    *names : str
+        Of ``velocity``, ``pressure`` and ``temperature``.
+    default : str
+        What they are by default, in words.
+    """
+    for name in names:
+        words = f"{_WHAT[name]}, with commas between (default: {default})"
+        command.add_argument(f"--{name}", action=Numbers, metavar=f"{name[0].upper()},...", help=words)
+    take_negative_lists(command)
+
+
 def take_negative_lists(command: argparse.ArgumentParser) -> None:
     """Let a command take -10,20 for a list, not for an option."""
     command._negative_number_matcher = re.compile(r"^-\.?\d[\d.,eE+-]*$")

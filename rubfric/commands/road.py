@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from rubfric.columns.format import DECIMALS, SEPARATORS, Format
+from rubfric.commands.configs import add_configs, warn
 from rubfric.commands.lists import Numbers
 from rubfric.config import campaign as campaigns
-from rubfric.config.pairs import which
 from rubfric.errors import InvalidInput
 from rubfric.files import whole
 from rubfric.outputs import check_output, name_of
@@ -107,9 +106,7 @@ def add_road(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> None
     slide.add_argument("--plane", choices=PLANES, help="plane stress or plane strain (default: the config's)")
     slide.add_argument("--kinematics", choices=KINEMATICS, help="small or finite strain (default: the config's)")
     slide.add_argument("--accuracy", type=float, metavar="A", help="relative accuracy (default: the config's)")
-    slide.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
+    add_configs(slide)
     slide.add_argument("--output", "-o", type=Path, metavar="FILE", help="table (default: friction_NAME.csv)")
     slide.set_defaults(run=_slide, configs=configs)
 
@@ -239,8 +236,7 @@ def _slide(options: argparse.Namespace) -> int:
         replace(numerics, accuracy=options.accuracy) if options.accuracy else numerics,
     )
     windows = options.windows or min(6, found.windows)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    warn(campaign)
     lead = (
         f"{campaign.material.name}, a block {block.height:g} mm high, plane {block.plane}, {block.kinematics} "
         f"kinematics, over {windows} windows of {found.window:g} mm of {options.file}"

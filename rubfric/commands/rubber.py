@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -12,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from rubfric import checks
+from rubfric.commands.configs import add_configs, warn
 from rubfric.config import campaign as campaigns
 from rubfric.config.models import Config
 from rubfric.config.overlay import overlaid, read_yaml
-from rubfric.config.pairs import which
 from rubfric.config.temperature import rubber_at
 from rubfric.decks.deck import UNITS
 from rubfric.errors import InvalidInput
@@ -104,9 +103,7 @@ def add_rubber(commands: Any, configs: Callable[[list[Path]], list[Path]]) -> No
     )
     write.add_argument("--code", choices=_CODES, required=True, help="the deck's code")
     write.add_argument("--rubber", metavar="NAME", help="one of the config's rubbers (default: the one chosen there)")
-    write.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
+    add_configs(write)
     write.add_argument(
         "--temperature",
         type=float,
@@ -248,8 +245,8 @@ def _write(options: argparse.Namespace) -> int:
             raise InvalidInput(f"--rubber is {options.rubber!r}, but the config has {', '.join(names)}{hint}")
         given = given | {"rubber": options.rubber}
     campaign = campaigns.Campaign.from_config(given)
-    if campaign.others and options.rubber is None:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    if options.rubber is None:
+        warn(campaign)
     shift, rubber = campaign.shift, campaign.material
     if options.temperature is not None:
         rubber = rubber_at(rubber, shift, options.temperature)

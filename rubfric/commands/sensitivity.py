@@ -7,13 +7,16 @@ import json
 import math
 import sys
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import rubfric
-from rubfric.commands.lists import Numbers, take_negative_lists
+from rubfric.checks import decimals
+from rubfric.commands.configs import add_configs, warn
+from rubfric.commands.lists import add_points
+from rubfric.commands.tables import aligned, with_nulls
 from rubfric.config import campaign as campaigns
-from rubfric.config.pairs import which
 from rubfric.config.plausibility import check_plausible
 from rubfric.errors import InvalidInput
 from rubfric.rules import Number
@@ -53,17 +56,8 @@ def add_sensitivity(commands: Any, configs: Callable[[list[Path]], list[Path]]) 
         epilog=_EXAMPLE,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    command.add_argument(
-        "--config", action="append", type=Path, metavar="FILE", help="YAML config to lay over config/config.yaml"
-    )
-    for name, what in (("velocity", "sliding speeds, mm/s"), ("pressure", "nominal pressures, MPa")):
-        command.add_argument(
-            f"--{name}",
-            action=Numbers,
-            metavar=f"{name[0].upper()},...",
-            help=f"{what}, with commas between (default: the middle)",
-        )
-    take_negative_lists(command)
+    add_configs(command)
+    add_points(command, "velocity", "pressure", default="the middle")
     command.add_argument("--temperature", type=float, metavar="T", help="of a rubber with shift factors, degC")
     command.add_argument(
         "--scale", default=ALL, metavar="N", help="scale of the road, 1 being the coarsest (default: all at once)"
@@ -96,11 +90,9 @@ def _sensitivity(options: argparse.Namespace) -> int:
     if options.scale != ALL and not options.scale.isdecimal():
         raise InvalidInput(f"--scale is {options.scale!r}, but must be the number of a scale, or {ALL}")
     scale = ALL if options.scale == ALL else int(options.scale)
-    points = [
-        (velocity, pressure)
-        for velocity in _numbers("velocity", "mm/s", options.velocity)
-        for pressure in _numbers("pressure", "MPa", options.pressure)
-    ]
+    speeds: list[Any] = [Number(unit="mm/s").check("velocity", one) for one in options.velocity or ()]
+    loads: list[Any] = [Number(unit="MPa").check("pressure", one) for one in options.pressure or ()]
+    points = list(product(speeds or [None], loads or [None]))
     change = _share(options.range)
     if options.only == "":
         raise InvalidInput("--only is empty, but must name numbers with commas between, E,g_1 say")
@@ -109,12 +101,8 @@ def _sensitivity(options: argparse.Namespace) -> int:
     for path in options.output or []:
         if path.suffix not in (".pdf", ".png"):
             raise InvalidInput(f"--output is {path}, but its name must end in .pdf or .png")
-    speeds = [one for one, _ in points if one is not None] or campaign.velocities
-    loads = [one for _, one in points if one is not None] or campaign.pressures
-    for sentence in check_plausible(campaign.material, campaign.road, speeds, loads):
-        print(f"rubfric: unlikely: {sentence}", file=sys.stderr)
-    if campaign.others:
-        print(f"rubfric: {which(campaign)}", file=sys.stderr)
+    grid = speeds or campaign.velocities, loads or campaign.pressures
+    warn(campaign, check_plausible(campaign.material, campaign.road, *grid))
     from rubfric.studies.sensitivity.study import sensitivity  # heavy: only once the config is known to be right
 
     found = [
@@ -144,10 +132,6 @@ def _sensitivity(options: argparse.Namespace) -> int:
         save(draw(found[0].table, found[0].change, found[0].title), *options.output)
         print(f"rubfric: drawn to {', '.join(map(str, options.output))}", file=sys.stderr)
     return 0
-
-
-def _numbers(name: str, unit: str, given: list[float] | None) -> list[float] | list[None]:
-    return [None] if given is None else [Number(unit=unit).check(name, one) for one in given]
 
 
 def _share(text: str) -> float:
@@ -182,16 +166,16 @@ def _others(held: str) -> str:
 
 
 def _columns(table: pd.DataFrame, share: str) -> list[str]:
-    from rubfric.studies.sensitivity.result import with_error
+    from rubfric.studies.sensitivity.result import signed
 
     rows = [["x", "value", "unit", "d ln mu / d ln x", "error", "changed to", f"friction, {share} more"]]
     for row in table.to_dict("records"):
         sensitivity, change = _with_error(row["sensitivity"], row["sensitivity_error"]), row["friction_change"]
         error = row["friction_change_error"]
-        size = "-" if math.isnan(change) else f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"
+        size = "-" if math.isnan(change) else signed(change, error)
         there = "-" if math.isnan(row["changed_to"]) else f"{row['changed_to']:.4g}"
         rows.append([row["parameter"], f"{row['value']:.4g}", row["unit"], *sensitivity, there, size])
-    return _aligned(rows)
+    return aligned(rows)
 
 
 def _indices(table: pd.DataFrame) -> list[str]:
@@ -202,23 +186,14 @@ def _indices(table: pd.DataFrame) -> list[str]:
             for name in ("first_order", "total_order")
         )
         rows.append([row["parameter"], *cells])
-    return _aligned(rows)
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
+    return aligned(rows)
 
 
 def _with_error(value: float, error: float) -> tuple[str, str]:
     if math.isnan(value):
         return "-", "-"
-    decimals = min(max(0, 1 - math.floor(math.log10(error))), 6) if 0.0 < error < math.inf else 3
-    return f"{value:+.{decimals}f}", f"{error:.{decimals}f}"
-
-
-def _plain(row: dict[str, Any]) -> dict[str, Any]:
-    return {name: None if isinstance(one, float) and not math.isfinite(one) else one for name, one in row.items()}
+    places = min(max(0, decimals(error, 2)), 6) if 0.0 < error < math.inf else 3
+    return f"{value:+.{places}f}", f"{error:.{places}f}"
 
 
 def _point(found: Sensitivities) -> dict[str, Any]:
@@ -236,9 +211,9 @@ def as_json(found: list[Sensitivities]) -> str:
             "friction_error": one.friction_error,
             "kinematics": one.kinematics,
             "change": one.change,
-            "rows": [_plain(row) for row in one.table.to_dict("records")],
+            "rows": [with_nulls(row) for row in one.table.to_dict("records")],
             "identities": [vars(identity) for identity in one.identities],
-            "sobol": None if one.sobol is None else [_plain(row) for row in one.sobol.to_dict("records")],
+            "sobol": None if one.sobol is None else [with_nulls(row) for row in one.sobol.to_dict("records")],
             "notes": [*one.notes],
             "sentences": one.sentences(),
         }

@@ -126,6 +126,8 @@ class Campaign:
         The road where its profile was measured.
     shift : Shift or None
         The rubber's shift factors.
+    refine : float or None
+        Share of friction to which its curves over speed are to be known between the velocities; None adds no speeds.
     temperatures : tuple of float
         degC, ascending; none where the rubber is simulated as it is given.
     areal_roads : dict of str to ArealEntry
@@ -167,6 +169,7 @@ class Campaign:
     fitted: FittedRubber | None = None
     survey: Survey | None = None
     shift: Shift | None = None
+    refine: float | None = None
     temperatures: tuple[float, ...] = ()
     others: tuple[Campaign, ...] = ()
     areal_roads: dict[str, ArealEntry] = field(default_factory=dict)
@@ -238,6 +241,7 @@ class Campaign:
             fitted=fitted,
             survey=survey,
             shift=shift,
+            refine=given.grid.refine,
             temperatures=temperatures,
         )
         _ = campaign.whole_roads  # refuses a road without a period

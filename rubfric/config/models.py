@@ -46,6 +46,25 @@ class Grid(Entry):
         tuple[float, ...],
         Items("Temperatures of a rubber with shift factors; none for the rubber as it is given.", degrees(), least=0),
     ] = ()
+    refine: Annotated[
+        float | None,
+        Number(
+            "Add speeds where friction over speed is not known to this share of itself between the grid's, by the "
+            "estimated error of interpolation: on every scale and on the whole road, at every pressure and temperature "
+            "and the aspect of the grid, for the first rubber on the first road. None are added where it is left out.",
+            low=0.001,
+            high=0.2,
+        ),
+    ] = None
+
+    @model_validator(mode="after")
+    def _between(self) -> Self:
+        if self.refine is not None and len(self.velocities) < 2:
+            raise InvalidInput(
+                f"{HERE}.refine is {self.refine:g}, but {HERE}.velocities has one speed: give two at least, for others "
+                "to be added between them"
+            )
+        return self
 
 
 class PhasesChoice(Entry):

@@ -63,6 +63,19 @@ def bands(panel: Axes) -> list[Any]:
     return [area for area in panel.collections if area.get_gid() == _BAND]
 
 
+def band_handle(label: str, colour: Any = "0.3", opacity: float = _OPACITY) -> Patch:
+    """Return a legend's entry for bands.
+
+    Parameters
+    ----------
+    label : str
+    colour : matplotlib colour
+    opacity : float, optional
+        From 0 to 1; that of a single band by default.
+    """
+    return Patch(facecolor=colour, alpha=opacity, linewidth=0.0, label=label)
+
+
 def explain_bands(
     figure: Figure, panel: Axes, values: Array, errors: Array, colour: Any = "0.3", rubber: Array | None = None
 ) -> list[Patch]:
@@ -92,8 +105,7 @@ def explain_bands(
     if unknown:
         facts.append(f"unknown at {unknown} of {np.count_nonzero(shown)} points")
     if _seen(panel, values, errors):
-        label = ",\n".join(["Estimated error", *facts])
-        return [Patch(facecolor=colour, alpha=_OPACITY, linewidth=0.0, label=label)]
+        return [band_handle(",\n".join(["Estimated error", *facts]), colour)]
     if facts:
         write_note(figure, [f"Estimated error {', '.join(facts)}: too small for bands to be seen.".replace("\n", " ")])
     return []
@@ -155,8 +167,7 @@ def explain_parts(figure: Figure, panel: Axes, values: Array, parts: Mapping[str
         known = shown & np.isfinite(error)
         most = f"at most {percent(float(np.max(np.abs(error[known] / values[known]))))}" if known.any() else "unknown"
         if _seen(panel, values, error):
-            label = f"{'+' if handles else 'Error:'} {words},\n{most}"
-            handles.append(Patch(facecolor="black", alpha=opacity, linewidth=0.0, label=label))
+            handles.append(band_handle(f"{'+' if handles else 'Error:'} {words},\n{most}", "black", opacity))
         else:
             write_note(figure, [f"Error from {words} {most}: too small for its band to be seen."])
     return handles

@@ -11,13 +11,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatterMathtext, LogLocator
 from numpy.typing import NDArray
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import panels, style
-from rubfric.figures.bands import draw_band, upper
+from rubfric.figures.bands import band_handle, draw_band, upper
 from rubfric.figures.columns import check_columns
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.results.comparison import EQUAL, FIRST, SECOND
@@ -90,7 +89,7 @@ def draw(comparison: pd.DataFrame, ranking: pd.DataFrame, pressures: Sequence[fl
     _label(axes, strips, pairs)
     handles = panels.line_handles([_short(name) for name in names], [*looks.values()])
     marks = [
-        Patch(facecolor="0.3", alpha=0.28, linewidth=0.0, label="95 % interval"),
+        band_handle("95 % interval"),
         Line2D([], [], label="Cannot be told apart", **_APART),
     ]
     panels.legend_above(figure, [*handles, *marks], None, 6 if figure.get_figwidth() > style.COLUMN else 3)

@@ -18,8 +18,10 @@ from rubfric.errors import InvalidInput
 from rubfric.figures import marks, panels, style
 from rubfric.figures.bands import explain_parts, runs, upper
 from rubfric.figures.peaks import mark_peak, peak_handles
+from rubfric.figures.refined import found_handles, mark_found
 from rubfric.figures.scaling import scale_friction, scale_speeds
 from rubfric.figures.totals import draw_total, other_handles, totals
+from rubfric.results.curve import Curve
 from rubfric.results.scales import total_friction
 from rubfric.results.selection import described, friction
 
@@ -30,7 +32,7 @@ _ALONE = 1.25
 
 
 @style.applied()
-def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: float) -> Figure:
+def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: float, refined: bool = False) -> Figure:
     """Draw the total against speed, upon the sum of the scales' friction coefficients with an area for each scale.
 
     Parameters
@@ -43,6 +45,8 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
         Height over width of the blocks.
     pressure : float
         Nominal pressure, MPa.
+    refined : bool
+        Whether the table has added speeds: the peak is marked with its error then.
 
     Returns
     -------
@@ -71,13 +75,16 @@ def draw(campaign: xr.Dataset, table: pd.DataFrame, aspect: float, pressure: flo
     patches = _stack(axes, speeds, shares, campaign)
     (edge,) = axes.plot(speeds, summed, label=panels.sentence(found.words("sum")), gid="sum", **_SUM)
     line = draw_total(axes, found)
-    mark_peak(axes, found.speeds, found.main, "black")
+    if refined:
+        mark_found(axes, Curve.known(found.speeds, found.total, found.error), "black")
+    else:
+        mark_peak(axes, found.speeds, found.main, "black")
     scale_speeds(axes, np.concatenate([speeds, found.speeds]))
     scale_friction(axes, np.concatenate([summed, upper(found.total, found.error)]))
     marks.WARNED.put(axes, found.speeds, found.total, found.warnings > 0.0)
     axes.set_xlabel("Sliding speed (mm/s)")
     axes.set_ylabel("Friction coefficient")
-    points = [*peak_handles(axes), *other_handles([found]), *marks.WARNED.handles([axes])]
+    points = [*peak_handles(axes), *found_handles(axes), *other_handles([found]), *marks.WARNED.handles([axes])]
     lines = [line, *explain_parts(figure, axes, found.main, found.parts), *points, edge]
     handles = [*_padded(lines, len(patches)), *_padded(patches, len(lines))]
     panels.legend_above(figure, handles, panels.place_words(pressure=pressure, aspect=aspect), 2)

@@ -10,13 +10,14 @@ from matplotlib.figure import Figure
 
 from rubfric.errors import InvalidInput
 from rubfric.figures import style
+from rubfric.figures.scaling import plain
 
 # In inches: the height of a bar, and of what is around them.
 _BAR, _AROUND = 0.155, 0.75
 # What rubber, road, block and load, and their bars, are told apart by.
-_KINDS = ("rubber", "road", "block and load")
+_KINDS = ("Rubber", "Road", "Block and load")
 _ROAD, _LOAD = re.compile(r"a(_\d+)?|lambda"), re.compile(r"aspect|p|v|T")
-_GREEK = {"nu": r"$\nu$", "lambda": r"$\lambda$"}
+_GREEK = {"nu": r"\nu", "lambda": r"\lambda", "tau": r"\tau"}
 _ERROR: dict[str, Any] = {"ecolor": "black", "elinewidth": 0.7, "capsize": 1.4, "capthick": 0.7}
 # What is smaller than this part of the largest change is counted, not drawn.
 _LEAST = 0.002
@@ -64,12 +65,11 @@ def draw(table: pd.DataFrame, change: float, title: str = "") -> Figure:
     axes.tick_params(axis="y", length=0.0)
     axes.spines["left"].set_visible(False)
     left_out = len(known) - len(shown)
-    note = f"; {left_out} with less than {_LEAST:.1%} of the longest bar are left out" if left_out else ""
-    axes.set_xlabel(f"change of friction, %, where each is {100.0 * change:g} % larger{note and chr(10)}{note[2:]}")
-    figure.suptitle(
-        title, fontsize=style.RC_PARAMS["axes.titlesize"]
-    )  # centred on all of the figure, not to be cut off
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+    note = f"\n{left_out} with less than {_LEAST:.1%} of the longest bar are left out" if left_out else ""
+    axes.set_xlabel(f"Change of friction (%) where each is {100.0 * change:g} % larger{note}")
+    # Centred on all of the figure, not to be cut off.
+    figure.suptitle(title, fontsize=style.RC_PARAMS["axes.titlesize"])
+    axes.xaxis.set_major_formatter(lambda value, _: plain(value))
     axes.legend(loc="best")
     return figure
 
@@ -82,15 +82,8 @@ def _label(row: dict[str, Any]) -> str:
     """Return the symbol of a number and its value; where it goes to, if not to a share more."""
     name, unit = row["parameter"], f" {row['unit']}" if row["unit"] else ""
     base, _, index = name.partition("_")
-    symbol = _GREEK.get(name) or (
-        f"${chr(92)}tau_{{{index}}}$" if base == "tau" else f"${base}_{{{index}}}$" if index else None
-    )
-    if symbol is None:
-        symbol = name if len(name) > 1 else f"${name}$"
-    value = f"{_number(row['value'])}{unit.replace('degC', '°C')}"
-    return f"{symbol} = {value}" if name not in ("nu", "T") else f"{symbol} = {value} to {_number(row['changed_to'])}"
-
-
-def _number(value: float) -> str:
-    mantissa, _, power = f"{value:.3g}".partition("e")
-    return f"{mantissa}$\\times$10$^{{{int(power)}}}$" if power else mantissa.replace("-", "\N{MINUS SIGN}")
+    symbol = _GREEK.get(base, base) + (f"_{{{index}}}" if index else "")
+    if name != "aspect":
+        symbol = f"${symbol}$"
+    value = f"{plain(row['value'], 3)}{unit.replace('degC', '°C')}"
+    return f"{symbol} = {value}" if name not in ("nu", "T") else f"{symbol} = {value} to {plain(row['changed_to'], 3)}"

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from rubfric.checks import decimals
+
 # Size of a plot and of its margins, in its own units, which are pixels on a phone.
 WIDTH, HEIGHT = 340.0, 92.0
 _SIDE, _TOP, _BOTTOM = 14.0, 34.0, 20.0
@@ -105,6 +107,6 @@ def percent(value: float, error: float = math.nan) -> str:
     if not math.isfinite(error) or error <= 0.0:
         text = f"{100.0 * value + 0.0:.3g}"
     else:
-        decimals = 1 - int(f"{100.0 * error:.1e}".partition("e")[2])
-        text = " ± ".join(f"{round(100.0 * one, decimals):.{max(decimals, 0)}f}" for one in (value, error))
+        places = decimals(100.0 * error, 2)
+        text = " ± ".join(f"{round(100.0 * one, places):.{max(places, 0)}f}" for one in (value, error))
     return f"{text} %".replace("-", "\N{MINUS SIGN}")

@@ -92,14 +92,6 @@ def index_page(
         figures=[_figure(base, name, words) for name, words in figures.items()],
         groups={name: [_linked(base, one) for one in linked] for name, linked in groups.items() if linked},
         at="" if temperature is None else f" at {written(temperature)} °C",
-        link=lambda path: _address(base, Path(path)),
-        places={
-            name: _address(base, base / path)
-            for name, path in (
-                ("total", "tables/friction_total.html"),
-                ("explorer", "explorer.html"),
-            )
-        },
     )
 
 

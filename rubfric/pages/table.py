@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from rubfric.checks import decimals
 from rubfric.pages.render import render
 
 _DIGITS, _ERROR_DIGITS = 4, 2
@@ -18,7 +19,7 @@ _PLAIN = (1e-6, 1e7)
 # Ends of headings, and the units that the page writes for them.
 _UNITS = {"_mm_per_s": "mm/s", "_MPa": "MPa", "_mm": "mm", "_s": "s", "_MB": "MB", "_degC": "°C"}
 # Columns that say which scene or point a row is of; the first of them stay in sight, up to a width in digits.
-_AXES = ("rubber", "road", "velocity_mm_per_s", "pressure_MPa", "temperature_degC", "aspect")
+_AXES = ("rubber", "road", "curve", "velocity_mm_per_s", "pressure_MPa", "temperature_degC", "aspect")
 _FROZEN = 24
 # Groups of columns: pattern of the name, group, and what the page writes in place of the name, if not that itself.
 _GROUPS = (
@@ -44,6 +45,13 @@ _GROUPS = (
     (r"maximum_local_contact_pressure_MPa", "contact", "largest pressure per deformed area"),
     (r"finite_strain|finite_strain_correction|effective_poissons_ratio|shear_wave_speed_ratio", "model", ""),
     (r"meshes|columns|rows|contact_nodes", "numerics", ""),
+    (r"kind", "peak", ""),
+    (r"peak_friction(_error)?", "peak", r"friction\1"),
+    (r"peak_speed(_low|_high)?_mm_per_s", "peak", r"speed\1"),
+    (r"half_(slower|faster)_speed_mm_per_s", r"half of it, \1", "speed"),
+    (r"half_(slower|faster)_speed_(low|high)_mm_per_s", r"half of it, \1", r"\2"),
+    (r"points|added", "known from", ""),
+    (r"interpolation_error", "known from", ""),
 )
 # Texts longer than this are set in lines, characters.
 _LINE = 40
@@ -88,8 +96,8 @@ def table_cells(table: pd.DataFrame, group: str | None = None) -> dict[str, Any]
         A column; a line is drawn where its value changes.
     """
     groups = table[group].tolist() if group else [None] * len(table)
-    decimals = _decimals(table)
-    texts = {str(name): _column_texts(table[name], decimals.get(str(name))) for name in table.columns}
+    places = _decimals(table)
+    texts = {str(name): _column_texts(table[name], places.get(str(name))) for name in table.columns}
     named = all(_of_group(name)[0] for name in texts if name not in _AXES)  # else headings are those of the file
     columns = [_column(name, cells, table[name].dtype.kind in "OTSU", named) for name, cells in texts.items()]
     rows = [
@@ -114,7 +122,8 @@ def _of_group(name: str) -> tuple[str, str]:
     """Return the group of a column and its heading within it; empty where it has none, or keeps its own."""
     for pattern, group, heading in _GROUPS:
         if re.fullmatch(pattern, name):
-            return group, re.sub(pattern, heading, name) if heading else ""
+            named = re.sub(pattern, heading, name).replace("_", " ") if heading else ""
+            return re.sub(pattern, group, name), named
     return "", ""
 
 
@@ -140,15 +149,10 @@ def _decimals(table: pd.DataFrame) -> dict[str, list[int | None]]:
         if not name.endswith("_error") or table[name].dtype.kind != "f":
             continue
         small = _PLAIN[0] * 1e-3
-        found[name] = [_after(one, _ERROR_DIGITS) if small < one < math.inf else None for one in table[name]]
+        found[name] = [max(0, decimals(one, _ERROR_DIGITS)) if small < one < math.inf else None for one in table[name]]
         if (of := name.removesuffix("_error")) in table:
             found[of] = found[name]
     return found
-
-
-def _after(value: float, digits: int) -> int:
-    """Return how many decimals so many digits of a positive value have."""
-    return max(0, digits - 1 - int(f"{value:.{digits - 1}e}".partition("e")[2]))
 
 
 def value_and_error(value: float, error: float) -> str:
@@ -157,13 +161,13 @@ def value_and_error(value: float, error: float) -> str:
         return ""
     if not _PLAIN[0] * 1e-3 < error < math.inf:
         return _shown(float(value), None)
-    decimals = _after(error, _ERROR_DIGITS)
-    return f"{_shown(float(value), decimals)} ± {error:.{decimals}f}"
+    places = max(0, decimals(error, _ERROR_DIGITS))
+    return f"{_shown(float(value), places)} ± {error:.{places}f}"
 
 
-def _column_texts(values: pd.Series, decimals: Sequence[int | None] | None) -> list[str]:
+def _column_texts(values: pd.Series, known: Sequence[int | None] | None) -> list[str]:
     """Return the values of a column as the page shows them, decimal points below one another."""
-    places = decimals or [None] * len(values)
+    places = known or [None] * len(values)
     texts = [_shown(value, place) for value, place in zip(values, places, strict=True)]
     if values.name in _AXES:
         texts = [text.rstrip("0").rstrip(".") if "." in text else text for text in texts]
@@ -177,18 +181,18 @@ def _column_texts(values: pd.Series, decimals: Sequence[int | None] | None) -> l
     ]
 
 
-def _shown(cell: Any, decimals: int | None) -> str:
+def _shown(cell: Any, places: int | None) -> str:
     """Return a value as the page shows it, with so many decimals where that is given; a gap is empty."""
     if not isinstance(cell, float):
         return str(cell)
     if math.isnan(cell):
         return ""
-    if decimals is not None:
-        text = f"{cell:.{decimals}f}"
+    if places is not None:
+        text = f"{cell:.{places}f}"
     elif cell.is_integer() and abs(cell) < _PLAIN[1]:
         text = f"{cell:.0f}"
     elif _PLAIN[0] <= abs(cell) < _PLAIN[1]:
-        text = f"{cell:.{_after(abs(cell), _DIGITS)}f}"
+        text = f"{cell:.{max(0, decimals(abs(cell), _DIGITS))}f}"
     else:
         text = f"{cell:.{_DIGITS}g}"
     return text.replace("-", "\N{MINUS SIGN}")

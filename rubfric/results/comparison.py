@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from rubfric.checks import written
+from rubfric.checks import decimals, written
 from rubfric.results.difference import PARTS, Friction, Interval, difference, interval
 from rubfric.results.scales import AXES, ONE_ROAD, RUBBER_PART, TOTAL, WORDS
 from rubfric.results.temperature import COLUMN
@@ -189,7 +189,7 @@ def _digits(found: Interval) -> tuple[str, str]:
     if math.isnan(half):
         return f"{value:.3g}", ""
     size = half or value
-    places = max(1 - math.floor(math.log10(size)), 0) if size else 0
+    places = max(0, decimals(size, 2)) if size else 0
     return f"{value:.{places}f}", f"{half:.{places}f}"
 
 

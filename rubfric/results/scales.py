@@ -51,9 +51,3 @@ def total_error(error: xr.DataArray) -> xr.DataArray:
     """
     total = error.sum("scale", skipna=False)
     return total.assign_attrs(units="1", long_name="bound on the estimated error of the sum over the scales, absolute")
-
-
-def scale_shares(friction: xr.DataArray) -> xr.DataArray:
-    """Return each scale's share of ``total_friction``; NaN where the total is zero or unknown."""
-    total = total_friction(friction)
-    return (friction / total.where(total != 0.0)).assign_attrs(units="1", long_name="share of the total friction")

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 
 from rubfric.checksums import check_signature
 from rubfric.results.comparison import headlines
+from rubfric.results.limits import WHOLE
 from rubfric.results.selection import RUBBER_ERROR, WARNINGS, WINDOWS
 
 # How a total was obtained, in words.
@@ -28,11 +29,12 @@ def findings(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
     ----------
     tables : iterable of path-like
         Tables of single scales, as from ``results.tables.scale_table``, and of totals, as from
-        ``results.totals.total_table``, and rankings of ``results.comparison``; missing ones are skipped.
+        ``results.totals.total_table``, of peaks, and rankings of ``results.comparison``; missing ones are skipped.
     """
     found = list(tables)
     totals = (line for path in found for line in _of_totals(path))
-    return [*_of_scales(found), *totals, *(line for path in found for line in _ranked(path))]
+    peaks = (line for path in found for line in _of_peaks(path))
+    return [*_of_scales(found), *totals, *peaks, *(line for path in found for line in _ranked(path))]
 
 
 def _of_scales(tables: Iterable[str | os.PathLike[str]]) -> list[str]:
@@ -95,6 +97,18 @@ def _pressures(pressures: list[float]) -> str:
     if len(pressures) > _FEW:
         return f"{len(pressures)} pressures from {pressures[0]:g} to {pressures[-1]:g} MPa"
     return f"{' and '.join(f'{pressure:g}' for pressure in pressures)} MPa"
+
+
+def _of_peaks(path: str | os.PathLike[str]) -> list[str]:
+    """Return the highest peak of the whole road's friction, from the table of peaks, where speeds were added to it."""
+    rows = [row for row in _rows(path, "peak_friction", "added") if row["curve"] == WHOLE and int(row["added"])]
+    if not rows:
+        return []
+    top = max(rows, key=lambda row: float(row["peak_friction"]))
+    speed, low, high = (float(top[f"peak_speed_{name}mm_per_s"]) for name in ("", "low_", "high_"))
+    friction = f"{float(top['peak_friction']):.3g} ± {float(top['peak_friction_error']):.1g}"
+    where = f"at {speed:.3g} mm/s (between {low:.3g} and {high:.3g}) and {float(top['pressure_MPa']):g} MPa{_warm(top)}"
+    return [f"largest friction of the whole road over all speeds {friction}, {where}"]
 
 
 def _percent(share: float) -> str:

@@ -12,6 +12,7 @@ from rubfric.config.campaign import Campaign
 from rubfric.config.pairs import which
 from rubfric.config.references import spread
 from rubfric.config.temperature import rubber_at
+from rubfric.results.limits import MOST
 from rubfric.rubber.material import Material
 from rubfric.scene.scene import Scene
 
@@ -52,6 +53,7 @@ class Costs:
                 "march": _MARCH * steps * (_SMALL if campaign.kinematics == "small" else 1.0),
                 "rubber_fit": _FIT,
                 "road_read": _ROAD,
+                "refined_curve": _added(campaign, _SCENE * scene, _WHOLE * _weight(whole) if whole else 0.0),
                 "reading": _SCENE * reading * _factor(draft) * 0.3,
             }
         )
@@ -66,6 +68,14 @@ class Costs:
             Of what it makes, for rules whose own time was not measured.
         """
         return self.by_rule.get(rule) or {"table": _TABLE, "figure": _FIGURE}.get(kind, _OTHER)
+
+
+def _added(campaign: Campaign, scene: float, whole: float) -> float:
+    """Return the mean time of adding speeds to a curve, s, given that of a scene, and of one of the whole road."""
+    scales = len(campaign.scales)
+    return 0.5 * MOST * scene * 2.0 * scales / (scales + 1) + 0.25 * MOST * whole * len(campaign.whole_roads) / (
+        scales + 1
+    )
 
 
 def _weight(scene: Scene) -> float:
@@ -102,6 +112,7 @@ def understood(campaign: Campaign, own: bool) -> list[str]:
         *_scans(campaign),
         *_moduli(campaign),
         _scenes(campaign),
+        *_refinement(campaign),
         *_others(campaign),
     ]
     return [*lines, *(f"UNLIKELY: {sentence}" for sentence in campaign.unlikely())]
@@ -207,6 +218,19 @@ def _scenes(campaign: Campaign) -> str:
     parts += [f"{total - grid} more of the aspect study"] if total > grid else []
     parts += [f"{whole} of the whole road"] if (whole := len(campaign.whole_scenes())) else []
     return ", ".join(parts)
+
+
+def _refinement(campaign: Campaign) -> list[str]:
+    """Say what adding speeds to curves of friction may cost."""
+    if campaign.refine is None:
+        return []
+    loads, scales = len(campaign.pressures) * max(len(campaign.temperatures), 1), len(campaign.scales)
+    roads = len(campaign.whole_roads)
+    curves, whole = loads * (scales + 1), f" and {MOST * loads * roads} of the whole road" if roads else ""
+    return [
+        f"grid.refine {campaign.refine:g} adds {MOST} speeds at most to each of {_many(curves, 'curve')} of friction: "
+        f"{2 * MOST * loads * scales} scenes{whole} more at most, and half as many or fewer as a rule"
+    ]
 
 
 def _many(number: int, what: str) -> str:

@@ -26,9 +26,8 @@ from rubfric.runner.findings import findings
 from rubfric.runner.lines import Lines
 from rubfric.runner.made import Made
 from rubfric.runner.times import record, shares
+from rubfric.streams import pause
 
-# Time between two lines: a twentieth of the time so far, within these bounds, s.
-_SHORTEST, _LONGEST = 5.0, 60.0
 # Snakemake's events that the short log covers. "Select jobs" has no event: with other words it would be seen again.
 _COVERED = {
     LogEvent.JOB_STARTED,
@@ -228,7 +227,7 @@ class RunLog(logging.Handler):
 
     def _tick(self) -> None:
         last = ""
-        while not self._over.wait(min(max(self._progress.elapsed / 20.0, _SHORTEST), _LONGEST)):
+        while not self._over.wait(pause(self._progress.elapsed)):
             with self.lock or contextlib.nullcontext():
                 line = self._progress.line()
             if line and line != last and not self._touch():
@@ -259,7 +258,14 @@ class RunLog(logging.Handler):
             total = sum(seconds for _, seconds, _ in cost.values())
             lines += [f"CPU time behind these results {duration(total)}: {_parts(cost)}"] if total else []
         lines += findings(self._made.tables())
-        return [*lines, *(self._leftovers() if {"scale_table", "total_table"} & set(self._progress.finished) else [])]
+        return [
+            *lines,
+            *(
+                self._leftovers()
+                if {"scale_table", "total_table", "curve_table"} & set(self._progress.finished)
+                else []
+            ),
+        ]
 
 
 def attach(run: RunLog, logger: logging.Logger, *, silence: bool) -> None:

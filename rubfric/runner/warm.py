@@ -13,6 +13,7 @@ import tempfile
 from importlib import import_module
 from pathlib import Path
 
+import rubfric.curve_simulation
 import rubfric.figures
 import rubfric.results.campaign
 import rubfric.results.tables

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import axe_core_python
 import pytest
 from selenium.webdriver.remote.webdriver import WebDriver
 from synthetic_campaign import make_campaign, make_totals
 from synthetic_site import make_site
-from visit import console_errors, resize
+from visit import colours, console_errors, resize, violations
 
 pytestmark = pytest.mark.thorough
 NAMES = ("index.html", "claims.html", "tables/friction_total.html")
-AXE = next(Path(axe_core_python.__file__).parent.rglob("axe.min.js"))
 # A4 within the margins of the pages, lying, at 96 pixels an inch.
 PAPER = 1047
 
@@ -26,27 +24,20 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def emulate(browser: WebDriver, media: str = "", scheme: str = "light") -> None:
-    features = [{"name": "prefers-color-scheme", "value": scheme}]
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_page_fits_every_screen_and_has_no_barrier(browser: WebDriver, site: Path, name: str) -> None:
-    for scheme in ("light", "dark"):
-        emulate(browser, scheme=scheme)
+    for dark in (False, True):
+        colours(browser, dark)
         browser.get((site / name).as_uri())
         for width in (390, 800, 1400):
             resize(browser, width, 900)
             assert browser.execute_script("return document.documentElement.scrollWidth") <= width
-        browser.execute_script(AXE.read_text(encoding="utf-8"))
-        found = browser.execute_async_script("axe.run().then(arguments[0])")
-        assert [(one["id"], one["nodes"][0]["html"]) for one in found["violations"]] == []
+        assert violations(browser) == []
     assert console_errors(browser) == []
 
 
 def test_first_columns_and_head_stay_where_the_rest_scrolls(browser: WebDriver, site: Path) -> None:
-    emulate(browser)
+    colours(browser)
     resize(browser, 390, 600)
     browser.get((site / NAMES[2]).as_uri())
     script = """
@@ -67,18 +58,18 @@ def test_first_columns_and_head_stay_where_the_rest_scrolls(browser: WebDriver, 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_cut_off_on_paper(browser: WebDriver, site: Path, name: str) -> None:
-    emulate(browser, media="print", scheme="dark")
+    colours(browser, dark=True, media="print")
     resize(browser, PAPER, 700)
     browser.get((site / name).as_uri())
     script = "return [...document.querySelectorAll('main *')].map((one) => one.getBoundingClientRect().right)"
     assert max(browser.execute_script(script)) <= PAPER
     colour = browser.execute_script("return getComputedStyle(document.body).backgroundColor")
     assert colour == "rgb(255, 255, 255)"
-    emulate(browser)
+    colours(browser)
 
 
 def test_links_to_other_pages_are_hidden_within_a_report(browser: WebDriver, site: Path, tmp_path: Path) -> None:
-    emulate(browser)
+    colours(browser)
     frame = tmp_path / "report.html"
     address = json.dumps((site / "claims.html").as_uri())
     frame.write_text(f"<!doctype html><iframe width=800 height=800 src={address}></iframe>", encoding="utf-8")

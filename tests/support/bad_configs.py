@@ -211,6 +211,13 @@ BAD_MODELS = [
     Bad(f"{ROAD}.2.amplitude", -0.003, r"roads.zhou2019\[2\].amplitude is -0.003 mm, but must be at least 0"),
 ]
 CLAIMS = [
+    Bad("grid.refine", 1, "grid.refine is 1, but must be at most 0.2"),
+    Bad("grid.refine", 0, "grid.refine is 0, but must be at least 0.001"),
+    Bad(
+        *("grid", {"velocities": [1], "pressures": [1], "aspect": 0.75, "refine": 0.01}),
+        "grid.refine is 0.01, but grid.velocities has one speed: give two at least",
+        schema=False,
+    ),
     Bad("claims.difference", 0, "claims.difference is 0, but must be at least 0.001"),
     Bad("claims.difference", 0.6, "claims.difference is 0.6, but must be at most 0.5"),
     Bad("claims.preset", "rough", "claims.preset is 'rough', but must be one of draft, standard, reference", False),

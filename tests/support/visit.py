@@ -178,11 +178,11 @@ def violations(browser: WebDriver) -> list[str]:
     return list(browser.execute_async_script(script))
 
 
-def colours(browser: WebDriver, dark: bool = False, still: bool = False) -> None:
-    """Have a visitor who prefers dark colours, or as little motion as can be."""
+def colours(browser: WebDriver, dark: bool = False, still: bool = False, media: str = "") -> None:
+    """Have a visitor who prefers dark colours, or as little motion as can be; on paper where ``media`` is print."""
     preferred = {
         "prefers-color-scheme": "dark" if dark else "light",
         "prefers-reduced-motion": "reduce" if still else "",
     }
     features = [{"name": name, "value": value} for name, value in preferred.items()]
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})

@@ -134,3 +134,10 @@ def test_value_nested_without_end_is_shown_at_once_and_in_short() -> None:
         value = [value] * 9
     assert len(checks.shown(value)) < 100
     assert checks.shown(10**5000) == "a int too long to show"
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "places"), [(0.0123, 2, 3), (0.0996, 2, 2), (1000.0, 2, -2), (1000.0, 4, 0), (0.5, 1, 1)]
+)
+def test_decimals_are_those_of_the_rounded_number(value: float, digits: int, places: int) -> None:
+    assert checks.decimals(value, digits) == places

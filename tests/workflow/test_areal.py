@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from page_links import broken_links
+from page_links import page_faults
 from project_copy import Project
 
 from rubfric.results.dataset import read
@@ -57,7 +57,7 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
     page = (made / "tables/friction_total.html").read_text(encoding="utf-8")
     assert "on the areal road runway friction of its profiles in the plane model is" in page
     assert "areal road scanned" not in page
-    assert broken_links(made) == []
+    assert page_faults(made) == []
     assert "plane_over_surface" not in read_table(made / "tables/areal_scanned.csv", ["note"])
     assert project.plan().jobs == {}
     config.write_text(MINE.replace("hurst: 0.8", "hurst: 0.7"), encoding="utf-8")
@@ -67,6 +67,7 @@ def test_areal_scenes_are_made_once_and_follow_their_road(tmp_path: Path) -> Non
         "areal_table": 1,
         "areal_figure": 1,
         "total_table": 1,
+        "curve_table": 1,
         "total_figure": 2,
         "explorer": 1,
     }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from page_links import broken_links
+from page_links import page_faults
 from project_copy import Project
 
 from rubfric.results.comparison import NAMES, RANKED
@@ -33,7 +33,7 @@ multiscale: direct
 phases: {draws: 3}
 numerics: {preset: draft}
 """
-COMPARISON = {"comparison_table": 1, "comparison_figure": 1}
+COMPARISON = {"comparison_table": 1, "comparison_figure": 1, "explorer": 1}
 Change = Callable[[str], str]
 
 
@@ -72,7 +72,7 @@ def test_tables_and_figure_are_of_all_pairs(pairs: Project) -> None:
     )
     assert "tread grips more than hard on fine at 300 mm/s" in (tables / "ranking.html").read_text(encoding="utf-8")
     assert (pairs.results / "figures/fig13.pdf").exists()
-    assert broken_links(pairs.results) == []
+    assert page_faults(pairs.results) == []
     assert pairs.plan().jobs == {}
 
 

@@ -10,7 +10,8 @@ from urllib.parse import unquote
 import numpy as np
 import pandas as pd
 import pytest
-from page_links import Page, broken_links
+from check import Page
+from page_links import page_faults
 from project_copy import Plan, Project
 
 from rubfric.results.campaign import read
@@ -66,7 +67,7 @@ def test_command_gives_the_friction_that_the_workflow_gives(template: Project) -
 def test_tables_and_figures_are_there(template: Project) -> None:
     scales = {f"friction_scale_{scale}.csv" for scale in range(1, 5)}
     assert set(template.tables) == {"friction_total.csv", *scales}
-    others = {f"{name}.csv" for name in ("rig_points", "rig_rejected", "claims", "claims_evidence")}
+    others = {f"{name}.csv" for name in ("rig_points", "rig_rejected", "claims", "claims_evidence", "curves", "peaks")}
     assert {path.name for path in (template.results / "tables").glob("*.csv")} == set(template.tables) | others
     expected = {f"{figure}.{kind}" for figure in FIGURES for kind in ("pdf", "png")}
     assert {path.name for path in (template.results / "figures").iterdir()} == expected
@@ -90,7 +91,11 @@ def test_every_job_has_a_log(template: Project) -> None:
     logs = template.results / "logs"
     assert {path.stem for path in (logs / "scenes").rglob("*.log")} == set(template.scene_files)
     assert {path.stem for path in (logs / "figures").iterdir()} == FIGURES
-    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == {*template.tables, "rig_points.csv"}
+    assert {f"{path.stem}.csv" for path in (logs / "tables").iterdir()} == {
+        *template.tables,
+        "rig_points.csv",
+        "curves.csv",
+    }
     for path in (logs / "scenes").rglob("*.log"):
         assert "\nfriction coefficient   " in path.read_text()
 
@@ -101,7 +106,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
     (end,) = (number for number, line in enumerate(lines) if line.startswith("  Done in "))
     assert "4 of 4 scenes of the whole road" in "\n".join(lines)
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    made = f": {counts}, 5 tables, 10 figures, 7 other jobs"
+    made = f": {counts}, 6 tables, 10 figures, 7 other jobs"
     assert lines[end].endswith(made)
     assert re.match(r"  slowest: (march of )?(scale|all)\S+ .* s, ", lines[end + 1])
     assert lines[end + 2].startswith("  CPU time behind these results ")
@@ -113,7 +118,7 @@ def test_run_is_told_in_a_few_lines(template: Project) -> None:
 
 
 def test_pages_lead_to_what_there_is_and_the_first_to_all(template: Project) -> None:
-    assert broken_links(template.results) == []
+    assert page_faults(template.results) == []
     linked = {(template.results / unquote(link)).resolve() for link in Page(template.results / "index.html").links}
     shown = [
         *template.results.glob("*.html"),
@@ -124,7 +129,8 @@ def test_pages_lead_to_what_there_is_and_the_first_to_all(template: Project) -> 
 
 
 def test_no_half_made_file_is_left(template: Project) -> None:
-    assert not [path for path in template.results.rglob(".*") if path.suffix != ".sha256"]
+    # What `rubfric friction` has solved is kept in .cache.
+    assert not [path for path in template.results.rglob(".*") if path.suffix != ".sha256" and path.name != ".cache"]
     assert not list(template.results.rglob("*.part"))
 
 
@@ -150,6 +156,7 @@ def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
         "campaign": 1,
         "scale_table": 4,
         "total_table": 1,
+        "curve_table": 1,
         "whole_scene": 4,
         "whole_collection": 1,
         "campaign_figure": 3,
@@ -173,7 +180,7 @@ def test_dry_run_tells_what_would_be_made_and_is_quiet(empty_project: Project) -
     done = empty_project.snakemake("-n")
     assert done.returncode == 0
     counts = "18 scenes, 4 scenes of the whole road, 1 march, 10 batches of other readings"
-    would = f"{counts}, 5 tables, 10 figures, 7 other jobs"
+    would = f"{counts}, 6 tables, 10 figures, 7 other jobs"
     assert f"  Would be made: {would}; in about " in done.stdout
     assert "a campaign of your own, the grid and aspect_study, transient, rig, claims\n" in done.stdout
     assert len((done.stdout + done.stderr).splitlines()) < 44

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from page_links import broken_links
+from page_links import page_faults
 from project_copy import Project
 
 from rubfric import load
@@ -55,7 +55,7 @@ def test_page_and_scenes_follow_the_profile(tmp_path: Path, monkeypatch: pytest.
     assert direct["friction_coefficient"] == pytest.approx(row["friction_total"], rel=1e-5)
     assert direct["friction_road_error"] == pytest.approx(row["friction_road_error"], rel=1e-5)
     assert total["friction_coefficient"] == pytest.approx(row["friction_sum"], rel=1e-5)
-    assert broken_links(made.parent) == []
+    assert page_faults(made.parent) == []
     page = (made / "street_friction.html").read_text(encoding="utf-8")
     assert "waves of 8 mm and longer carry" in page
     assert "Which waves carry friction" in page

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 import yaml
-from page_links import broken_links
+from page_links import page_faults
 from project_copy import Project
 
 from rubfric import load, simulate
@@ -50,7 +50,7 @@ def test_fit_reruns_with_its_data_and_code_and_scenes_with_the_rubber(tmp_path: 
     assert (table["friction_beyond_window"] > 0.01).tolist() == [False, True]
     assert (table[RUBBER_ERROR] > 0.0).all()
     assert "Residual of E&#39;&#39;, rms" in (results / "rubbers/tread.html").read_text(encoding="utf-8")
-    assert broken_links(results) == []
+    assert page_faults(results) == []
     fitted = load(project.root / "config/config.yaml", results / "rubbers/tread.yaml").material
     campaign = load(project.root / "config/config.yaml", config)
     assert fitted == campaign.material  # to the digits of a config

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from page_links import broken_links
+from page_links import page_faults
 from project_copy import Project
 
 MINE = """
@@ -81,4 +81,4 @@ def test_pages_are_those_of_the_grid_and_nothing_of_an_earlier_road_stays(mine: 
     assert re.search(r"removed, since an earlier config .*friction_scale_2.csv, .*friction_scale_2.html\n", mine.run())
     assert users.exists()
     assert pages(mine.results).keys() == {"index.html", "explorer.html", *tables} - {"friction_scale_2.html"}
-    assert broken_links(mine.results) == []
+    assert page_faults(mine.results) == []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Mapping
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -27,7 +28,7 @@ _NAMED_ONLY = {"canonical", "license", "author"}
 
 
 class Page(HTMLParser):
-    """What a page links to, loads, shows, and can be linked at."""
+    """What a page links to, loads, shows, and can be linked at; its ids and the levels of its headings."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
@@ -36,36 +37,61 @@ class Page(HTMLParser):
         self.loaded: set[str] = set()
         self.pictures: set[str] = set()
         self.anchors = {"", "top"}
+        self.ids: list[str] = []
+        self.headings: list[int] = []
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if len(tag) == 2 and tag[0] == "h" and tag[1].isdigit():
+            self.headings.append(int(tag[1]))
         for name, value in attrs:
-            if name in ("id", "name") and value:
+            if not value:
+                continue
+            if name in ("id", "name"):
                 self.anchors.add(value)
-            if name in ("href", "src", "data") and value and (tag, name) not in _LOADED:
+            if name == "id":
+                self.ids.append(value)
+            if name in ("href", "src", "data"):
                 self.links.add(value)
-            if (tag, name) in _LOADED and value and dict(attrs).get("rel") not in _NAMED_ONLY:
+            if (tag, name) in _LOADED and dict(attrs).get("rel") not in _NAMED_ONLY:
                 self.loaded.add(value)
-            if tag == "img" and name == "src" and value:
+            if tag == "img" and name == "src":
                 self.pictures.add(value)
+
+
+def dead_links(folder: Path, pages: Mapping[Path, Page]) -> list[str]:
+    """Return a sentence for every link of pages that leads nowhere.
+
+    Parameters
+    ----------
+    folder : Path
+        Sentences name pages from there.
+    pages : mapping of Path to Page
+        By their paths, which are absolute.
+    """
+    found = []
+    for path, page in pages.items():
+        for link in sorted(page.links):
+            target = urlsplit(link)
+            if target.scheme or target.netloc:
+                continue
+            aim = (path.parent / unquote(target.path)).resolve() if target.path else path
+            # What an explorer shows is chosen by KEY=VALUE after the #: it has no such id.
+            choice = "=" in target.fragment
+            if not aim.exists():
+                found.append(f"{path.relative_to(folder)} links to {link}, which is not there")
+            elif aim in pages and not choice and unquote(target.fragment) not in pages[aim].anchors:
+                found.append(f"{path.relative_to(folder)} links to {link}, where nothing has that name")
+    return found
 
 
 def faults(folder: Path) -> list[str]:
     """Return a sentence for everything that is wrong with the site in a folder."""
     pages = {path: Page(path) for path in sorted(folder.rglob("*.html")) if "_static" not in path.parts}
-    found = [] if pages else [f"{folder} has no pages"]
+    found = dead_links(folder, pages) if pages else [f"{folder} has no pages"]
     for path, page in pages.items():
         name = path.relative_to(folder)
         found += [f"{name} loads {one} from elsewhere" for one in page.loaded if _elsewhere(one)]
-        for link in page.links | page.loaded:
-            target = urlsplit(link)
-            if target.scheme or target.netloc:
-                continue
-            aim = (path.parent / unquote(target.path)).resolve() if target.path else path
-            if not aim.is_file():
-                found.append(f"{name} links to {link}, which is not there")
-            elif aim in pages and unquote(target.fragment) not in pages[aim].anchors:
-                found.append(f"{name} links to {link}, where nothing has that name")
         shown = [(path.parent / unquote(one)).resolve() for one in page.pictures if not urlsplit(one).scheme]
         size = path.stat().st_size + sum(one.stat().st_size for one in shown if one.is_file())
         if size > MOST_BYTES:

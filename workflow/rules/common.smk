@@ -275,6 +275,8 @@ def made_for_a_config():
             + ["rig_figure", "rig_schematic", "march_figure"],
             [*FIGURES, *MARCH_FIGURE],
         ),
+        "refined_curve": [curve_file(name) for name in REFINED],
+        "curve_table": [*CURVE_TABLES.values()],
         "pair_table": [*PAIR_TABLES.values()],
         "comparison_table": [*COMPARISON.values(), COMPARISON_MARK],
         "comparison_figure": FIGURES,
@@ -302,7 +304,7 @@ def follow(workflow):
         RESULTS,
         targets=[own[rule.name] for rule in workflow.modifier.rules if not rule.output],
         rules=own,
-        tables=[*TABLES, *COMPARISON.values()],
+        tables=[*TABLES, CURVE_TABLES["peaks"], *COMPARISON.values()],
         first=[
             f"{RESULTS}/{path}"
             for path in (

@@ -84,6 +84,7 @@ rule campaign_figure:
         lambda wildcards: DRAWN_BY[wildcards.figure],
         script=script_copy("draw_figure.py"),
         results=rules.campaign.output[0],
+        curves=lambda wildcards: DRAWN_CURVES if wildcards.figure == "fig6" else [],
     output:
         **pictures(
             "{figure}",
@@ -111,6 +112,7 @@ rule campaign_figure:
             outputs=list(output),
             digests=params.digests,
             temperature=params.temperature,
+            curves=str(input.curves) or None,
         )
 
 
@@ -154,6 +156,9 @@ rule total_figure:
         script=script_copy("draw_total.py"),
         table=rules.total_table.output.table,
         campaign=rules.campaign.output[0],
+        added=lambda wildcards: (
+            ADDED_TO["whole road"] if wildcards.figure == "fig7" else []
+        ),
     output:
         **pictures(
             "{figure}",
@@ -184,6 +189,7 @@ rule total_figure:
             choice=params.choice,
             temperature=params.temperature,
             outputs=list(output),
+            added=list(input.added),
         )
 
 

@@ -103,6 +103,10 @@ IN_GROUPS = {
             )
             for scale in CAMPAIGN.scales
         ),
+        named(
+            "peaks of friction over speed", CURVE_TABLES["page"], CURVE_TABLES["peaks"]
+        ),
+        named("friction over speed, every point", table=CURVE_TABLES["curves"]),
         *([named("evidence on the claims", table=CLAIMS["evidence"])] if JUDGE else []),
         *(
             named(f"test rig: {what}", table=path)
@@ -119,7 +123,7 @@ IN_GROUPS = {
     ],
 }
 # Beside these, what no job makes, or not by default.
-BESIDE = {
+NOT_AWAITED = {
     "Logs and other pages": [
         (
             "report: figures and tables with captions",
@@ -161,7 +165,7 @@ rule index_page:
             "ranking": COMPARISON.get("rankingcsv", ""),
             "title": TITLE,
             "figures": {name: SHOWN_FIGURES[name] for name in DRAWN},
-            "groups": {**IN_GROUPS, **BESIDE},
+            "groups": {**IN_GROUPS, **NOT_AWAITED},
             "temperature": TEMPERATURE,
         },
         understood=lambda wildcards: understood(CAMPAIGN, OWN_CAMPAIGN),

@@ -7,7 +7,9 @@ from rubfric.figures.style import save
 from rubfric.figures.temperature import name_temperature
 from rubfric.results import campaign as collection
 from rubfric.results import dataset
-from rubfric.results.temperature import at_temperature
+from rubfric.results.curves import WORDS
+from rubfric.results.tables import read_table
+from rubfric.results.temperature import at_temperature, rows_at
 
 
 def main(
@@ -17,6 +19,7 @@ def main(
     outputs: list[str],
     digests: list[str] | None = None,
     temperature: float | None = None,
+    curves: str | None = None,
 ) -> None:
     """Draw the figure and save it under every path of ``outputs``.
 
@@ -34,8 +37,13 @@ def main(
         Digests that single results must have, or what the collection is known by.
     temperature : float, optional
         What the figure shows of several, degC, and names.
+    curves : str, optional
+        Path of the table of curves (CSV), for Fig. 6 where speeds were added.
     """
     draw = import_module(f"rubfric.figures.{figure}").draw
+    if curves:
+        table = read_table(curves, WORDS)
+        choice = choice | {"curves": table if temperature is None else rows_at(table, temperature)}
     if isinstance(results, str):
         drawn = draw(at_temperature(collection.read(results, *(digests or [])), temperature), **choice)
     else:

@@ -3,10 +3,10 @@
 from typing import Any
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.results.dataset import write
+from rubfric.results.dataset import read, write
 from rubfric.results.kept import take_up
 from rubfric.results.provenance import refusal
-from rubfric.results.selection import NOT_NEEDED
+from rubfric.results.selection import NOT_NEEDED, REFUSAL
 from rubfric.results.summary import summary
 from rubfric.results.whole_road import WholeRoad
 from rubfric.scene.scene import Scene
@@ -32,13 +32,11 @@ def main(output: str, parameters: dict[str, Any], road: dict[str, Any]) -> None:
         print(NOT_NEEDED + way)
         return
     if take_up(output, scene):
-        print("Solved by rubfric run or rubfric friction before")
-        return
-    try:
-        result = simulate(scene)
-    except (InvalidInput, NotConverged) as reason:
-        write(refusal(scene, reason), output)
-        print(f"Refused: {reason}")
+        result = read(output, refusals=True)
     else:
+        try:
+            result = simulate(scene)
+        except (InvalidInput, NotConverged) as reason:
+            result = refusal(scene, reason)
         write(result, output)
-        print(summary(result))
+    print(f"Refused: {result.attrs[REFUSAL]}" if REFUSAL in result.attrs else summary(result))

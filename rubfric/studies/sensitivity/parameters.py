@@ -19,7 +19,7 @@ from functools import partial
 from rubfric.road.sine import SineScale
 from rubfric.road.waves import WaveRoad
 from rubfric.rubber.material import Material
-from rubfric.rubber.shift import KELVIN, ShiftedRubber
+from rubfric.rubber.shift import KELVIN, Shift, ShiftedRubber
 from rubfric.scene.scene import Scene
 
 # Kelvins by which temperature is changed for each unit of exp(t) - 1.
@@ -34,7 +34,7 @@ def _proportional(value: float, t: float) -> float:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that friction depends on.
+    """A number that friction depends on; it can be pickled, for workers.
 
     Attributes
     ----------
@@ -73,20 +73,24 @@ def parameters(scene: Scene, rubber: ShiftedRubber | None = None) -> list[Parame
     """
     material = scene.material
     found = [
-        Parameter("E", "Young's modulus, with all moduli", "MPa", material.youngs_modulus, _of_rubber(_stiffer)),
+        Parameter(
+            "E", "Young's modulus, with all moduli", "MPa", material.youngs_modulus, partial(_of_rubber, _stiffer)
+        ),
         _poissons_ratio(material.poissons_ratio),
     ]
     for place, fraction in enumerate(material.shear_fractions):
-        changed = _of_rubber(partial(with_branch, branch=place))
+        changed = partial(_of_rubber, partial(with_branch, branch=place))
         found.append(Parameter(f"g_{place + 1}", f"modulus of branch {place + 1}", "", fraction, changed))
     for place, time in enumerate(material.relaxation_times):
-        changed = _of_rubber(partial(_with_time, branch=place))
+        changed = partial(_of_rubber, partial(_with_time, branch=place))
         found.append(Parameter(f"tau_{place + 1}", f"relaxation time of branch {place + 1}", "s", time, changed))
     found += _of_road(scene.road)
     found += [
-        Parameter("aspect", "height of the block over the wavelength", "", scene.aspect, _higher),
-        Parameter("p", "nominal pressure", "MPa", scene.pressure, _heavier),
-        Parameter("v", "sliding speed", "mm/s", scene.velocity, _faster),
+        Parameter(
+            "aspect", "height of the block over the wavelength", "", scene.aspect, partial(_multiplied, "aspect")
+        ),
+        Parameter("p", "nominal pressure", "MPa", scene.pressure, partial(_multiplied, "pressure")),
+        Parameter("v", "sliding speed", "mm/s", scene.velocity, partial(_multiplied, "velocity")),
     ]
     return found + ([_temperature(scene.temperature, rubber)] if rubber and scene.temperature is not None else [])
 
@@ -116,53 +120,49 @@ def _stiffer(material: Material, factor: float) -> Material:
     return replace(material, youngs_modulus=factor * material.youngs_modulus)
 
 
-def _of_rubber(change: Callable[[Material, float], Material]) -> Callable[[Scene, float], Scene]:
-    return lambda scene, t: replace(scene, material=change(scene.material, math.exp(t)))
+def _of_rubber(change: Callable[[Material, float], Material], scene: Scene, t: float) -> Scene:
+    return replace(scene, material=change(scene.material, math.exp(t)))
 
 
-def _higher(scene: Scene, t: float) -> Scene:
-    return replace(scene, aspect=scene.aspect * math.exp(t))
-
-
-def _heavier(scene: Scene, t: float) -> Scene:
-    return replace(scene, pressure=scene.pressure * math.exp(t))
-
-
-def _faster(scene: Scene, t: float) -> Scene:
-    return replace(scene, velocity=scene.velocity * math.exp(t))
+def _multiplied(name: str, scene: Scene, t: float) -> Scene:
+    """Return a scene of which one number, given by its name, is multiplied."""
+    return replace(scene, **{name: getattr(scene, name) * math.exp(t)})
 
 
 def _poissons_ratio(given: float) -> Parameter:
     """Return Poisson's ratio, of which 1 - 2 nu is changed: it is what the bulk modulus goes with."""
-
-    def at(value: float, t: float) -> float:
-        return 0.5 * (1.0 - (1.0 - 2.0 * value) * math.exp(-t))
-
-    def changed(scene: Scene, t: float) -> Scene:
-        material = scene.material
-        return replace(scene, material=replace(material, poissons_ratio=at(material.poissons_ratio, t)))
-
     slope = (1.0 - 2.0 * given) / (2.0 * given) if given else math.inf
-    return Parameter("nu", "Poisson's ratio, changed by its 1 - 2 nu", "", given, changed, at, slope)
+    words = "Poisson's ratio, changed by its 1 - 2 nu"
+    return Parameter("nu", words, "", given, _less_compressible, _ratio_at, slope)
+
+
+def _ratio_at(value: float, t: float) -> float:
+    return 0.5 * (1.0 - (1.0 - 2.0 * value) * math.exp(-t))
+
+
+def _less_compressible(scene: Scene, t: float) -> Scene:
+    material = scene.material
+    return replace(scene, material=replace(material, poissons_ratio=_ratio_at(material.poissons_ratio, t)))
 
 
 def _temperature(given: float, rubber: ShiftedRubber) -> Parameter:
-    """Return the temperature: relaxation times go with a_T, moduli with b_T."""
-    shift = rubber.shift
+    slope = _KELVINS / (given + KELVIN)
+    return Parameter("T", "temperature", "degC", given, partial(_warmer, rubber.shift, given), _temperature_at, slope)
 
-    def at(value: float, t: float) -> float:
-        return value + _KELVINS * math.expm1(t)
 
-    def changed(scene: Scene, t: float) -> Scene:
-        before = given if scene.temperature is None else scene.temperature
-        after, material = at(before, t), scene.material
-        slower = 10.0 ** (shift.log_factor(after) - shift.log_factor(before))
-        stiffer = shift.modulus_factor(after) / shift.modulus_factor(before)
-        times = tuple(slower * time for time in material.relaxation_times)
-        warm = replace(material, youngs_modulus=stiffer * material.youngs_modulus, relaxation_times=times)
-        return replace(scene, material=warm, temperature=after)
+def _temperature_at(value: float, t: float) -> float:
+    return value + _KELVINS * math.expm1(t)
 
-    return Parameter("T", "temperature", "degC", given, changed, at, _KELVINS / (given + KELVIN))
+
+def _warmer(shift: Shift, given: float, scene: Scene, t: float) -> Scene:
+    """Return a scene at another temperature: relaxation times go with a_T, moduli with b_T."""
+    before = given if scene.temperature is None else scene.temperature
+    after, material = _temperature_at(before, t), scene.material
+    slower = 10.0 ** (shift.log_factor(after) - shift.log_factor(before))
+    stiffer = shift.modulus_factor(after) / shift.modulus_factor(before)
+    times = tuple(slower * time for time in material.relaxation_times)
+    warm = replace(material, youngs_modulus=stiffer * material.youngs_modulus, relaxation_times=times)
+    return replace(scene, material=warm, temperature=after)
 
 
 def _of_road(road: SineScale | WaveRoad) -> Iterator[Parameter]:

@@ -84,7 +84,7 @@ class Sensitivities:
     def __repr__(self) -> str:
         clear = self.table[self.table["friction_change"].abs() > self.table["friction_change_error"]]
         most = ", ".join(
-            f"{row['parameter']} {_signed(row['friction_change'], row['friction_change_error'])}"
+            f"{row['parameter']} {signed(row['friction_change'], row['friction_change_error'])}"
             for row in clear.head(3).to_dict("records")
         )
         return f"<Sensitivities of {self.scene.name}: friction {self.friction:.4g}; {self.change:.0%} more: {most}>"
@@ -146,6 +146,17 @@ def with_error(value: float, error: float) -> str:
     return f"{100.0 * value:.{digits}f} ± {100.0 * error:.{digits}f}"
 
 
+def signed(change: float, error: float) -> str:
+    """Return a change and its error in per cent, with the sign of either: +3.1 ± 0.2 %.
+
+    Parameters
+    ----------
+    change, error : float
+        Relative.
+    """
+    return f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"
+
+
 def _digits(error: float) -> int:
     """Return the decimals in which an error has one significant digit, or two where it begins with 1."""
     percent = 100.0 * error
@@ -153,7 +164,3 @@ def _digits(error: float) -> int:
         return 2
     exponent = math.floor(math.log10(percent))
     return min(max(0, -exponent + (1 if percent / 10.0**exponent < 2.0 else 0)), 6)
-
-
-def _signed(change: float, error: float) -> str:
-    return f"{'-' if change < 0.0 else '+'}{with_error(abs(change), error)} %"

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from scipy.stats import sobol_indices, uniform
 
 from rubfric.errors import InvalidInput, NotConverged
-from rubfric.rubber.shift import ShiftedRubber
 from rubfric.scene.scene import Scene
 from rubfric.studies.sensitivity.differences import Base, Difference, logarithm
-from rubfric.studies.sensitivity.parameters import Parameter, parameters
+from rubfric.studies.sensitivity.parameters import Parameter
 from rubfric.studies.sensitivity.sharing import shared
 
 Array = NDArray[np.float64]
@@ -38,27 +37,22 @@ class Batch(NamedTuple):
     Attributes
     ----------
     base : Base
-    rubber : ShiftedRubber or None
-    names : tuple of str
-        Of the parameters, which hold functions.
+    chosen : tuple of Parameter
     points : ndarray, shape (scenes, parameters)
         Their coordinates.
     """
 
     base: Base
-    rubber: ShiftedRubber | None
-    names: tuple[str, ...]
+    chosen: tuple[Parameter, ...]
     points: Array
 
 
 def solve_batch(batch: Batch) -> list[float]:
     """Return the friction of every scene of a batch, on the coarse mesh; NaN where it has none."""
-    known = {one.name: one for one in parameters(batch.base.scene, batch.rubber)}
-    chosen = [known[name] for name in batch.names]
     found = []
     for point in batch.points:
         try:
-            scene = together(batch.base.scene, chosen, point)
+            scene = together(batch.base.scene, batch.chosen, point)
             found.append(math.exp(logarithm(batch.base.near(scene, fine=False))))
         except (InvalidInput, NotConverged):
             found.append(math.nan)
@@ -67,7 +61,7 @@ def solve_batch(batch: Batch) -> list[float]:
 
 def indices(
     base: Base,
-    rubber: ShiftedRubber | None,
+    chosen: Sequence[Parameter],
     derivatives: Sequence[Difference],
     change: float,
     count: int,
@@ -80,10 +74,9 @@ def indices(
     Parameters
     ----------
     base : Base
-    rubber : ShiftedRubber or None
-        The rubber at any temperature, of a scene that has one.
+    chosen : sequence of Parameter
     derivatives : sequence of Difference
-        Of the parameters; they stand in for a few scenes without a solution.
+        Along each of them; they stand in for a few scenes without a solution.
     change : float
         Half the range of every parameter, relative.
     count : int
@@ -99,8 +92,7 @@ def indices(
     InvalidInput
         Where too many scenes are refused.
     """
-    names = tuple(one.name for one in derivatives)
-    total, refused = count * (len(names) + 2), 0
+    total, refused = count * (len(chosen) + 2), 0
     slopes = np.array([one.derivative for one in derivatives])
     own = logarithm(base.coarse)
     solved: list[Array] = []
@@ -109,7 +101,7 @@ def indices(
         nonlocal refused
         steps = np.log1p(points).T
         starts = range(0, len(steps), _BATCH)
-        batches = [Batch(base, rubber, names, steps[start : start + _BATCH]) for start in starts]
+        batches = [Batch(base, tuple(chosen), steps[start : start + _BATCH]) for start in starts]
         found, done = np.empty(len(steps)), sum(map(len, solved))
         for place, values in shared(solve_batch, batches, jobs, ["Sobol' indices"] * len(batches)):
             found[starts[place] :][: len(values)] = values
@@ -126,10 +118,10 @@ def indices(
         solved.append(found)
         return found
 
-    spread = [uniform(-change, 2.0 * change)] * len(names)
+    spread = [uniform(-change, 2.0 * change)] * len(chosen)
     result = sobol_indices(func=friction, n=count, dists=spread, rng=np.random.default_rng(seed))
     low, high = _intervals(solved, count, seed)
-    table = pd.DataFrame({"parameter": names})
+    table = pd.DataFrame({"parameter": [one.name for one in chosen]})
     for row, name in enumerate(("first_order", "total_order")):
         table[name] = getattr(result, name)
         table[f"{name}_low"], table[f"{name}_high"] = low[row], high[row]

@@ -99,27 +99,27 @@ def sensitivity(
     named = "1 parameter" if len(chosen) == 1 else f"{len(chosen)} parameters"
     counted = f"{named}: {2 * len(chosen)} scenes on {fine:,} cells, {4 * len(chosen)} on {coarse:,}"
     progress(counted + (f", and {sobol * (len(chosen) + 2)} for Sobol' indices" if sobol else ""))
-    found, notes = _differences(base, chosen, rubber, math.log1p(change), progress, jobs)
+    found, notes = _differences(base, chosen, math.log1p(change), progress, jobs)
     table = _table(base, chosen, found, notes)
     indexed: pd.DataFrame | None = None
     said: list[str] = []
     if scale == ALL and len(campaign.whole_roads) > 1:
         said.append(f"of the first of {len(campaign.whole_roads)} roads: draws of phases, or windows of a profile")
     if sobol:
-        indexed, stood_in = indices(base, rubber, list(found.values()), change, sobol, progress=progress, jobs=jobs)
+        moving = [one for one in chosen if one.name in found]
+        indexed, stood_in = indices(base, moving, [*found.values()], change, sobol, progress=progress, jobs=jobs)
         said += stood_in
-    kinematics = base.fine.decision.kinematics
-    about = (
+    return Sensitivities(
         base.scene,
         base.friction,
         base.error,
-        kinematics,
+        base.fine.decision.kinematics,
         change,
         table,
         () if only else identities(table),
         indexed,
+        tuple(said),
     )
-    return Sensitivities(*about, notes=tuple(said))
 
 
 def scene_of(
@@ -161,18 +161,16 @@ def _chosen(known: Sequence[Parameter], only: Sequence[str]) -> list[Parameter]:
 
 
 class _Task(NamedTuple):
-    """A derivative to be found in another process: parameters by name, since they hold functions."""
+    """A derivative to be found, perhaps in another process."""
 
     base: Base
-    rubber: ShiftedRubber | None
-    name: str
+    parameter: Parameter
     step: float
 
 
 def _differences(
     base: Base,
     chosen: Sequence[Parameter],
-    rubber: ShiftedRubber | None,
     step: float,
     progress: Callable[[str], None],
     jobs: int | None,
@@ -181,8 +179,8 @@ def _differences(
 
     What would take long is shared among workers.
     """
-    tasks = [_Task(base, rubber, one.name, step) for one in chosen]
-    names = [task.name for task in tasks]
+    tasks = [_Task(base, one, step) for one in chosen]
+    names = [one.name for one in chosen]
     answers: dict[str, Difference | str] = {}
     began = time.monotonic()
     for place, answer in shared(_answer, tasks, jobs, names):
@@ -190,15 +188,14 @@ def _differences(
         count = len(answers)
         left = (time.monotonic() - began) / count * (len(tasks) - count)
         progress(f"solved {6 * count} of {6 * len(tasks)} scenes, {names[place]}; about {left:.0f} s left")
-    in_order = {one.name: answers[one.name] for one in chosen}
+    in_order = {name: answers[name] for name in names}
     found = {name: answer for name, answer in in_order.items() if isinstance(answer, Difference)}
     return found, {name: answer for name, answer in in_order.items() if isinstance(answer, str)}
 
 
 def _answer(task: _Task) -> Difference | str:
     """Return a derivative, or why there is none."""
-    known = {one.name: one for one in parameters(task.base.scene, task.rubber)}
-    one = known[task.name]
+    one = task.parameter
     try:
         if one.value == 0.0 and one.at(0.0, task.step) == 0.0:
             raise InvalidInput(f"{one.name} is 0: no share of it makes a change")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import runpy
 from pathlib import Path
 
 import pandas as pd
@@ -20,6 +21,7 @@ from rubfric.scene.scene import ALL, Scene
 from rubfric.simulation import simulate
 
 ROAD = [{"amplitude": 0.5, "wavelength": 10.0}, {"amplitude": 0.05, "wavelength": 1.0}]
+WHOLE = Path(rubfric.__file__).resolve().parents[1] / "workflow" / "scripts" / "simulate_whole.py"
 POINT = ["friction", "--velocity", "100", "--pressure", "0.5"]
 
 
@@ -114,7 +116,9 @@ def test_workers_find_what_one_process_does(config: Path, monkeypatch: pytest.Mo
     pd.testing.assert_frame_equal(together, alone, rtol=1e-9)
 
 
-def test_workflow_takes_up_what_is_kept_and_nothing_else(config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_workflow_takes_up_what_is_kept_and_nothing_else(
+    config: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     campaign = rubfric.load(config, {"multiscale": "direct", "road": "one", "roads": {"one": ROAD[:1]}})
     campaign.run([100], [0.5], jobs=1, progress=False)
     results = config.parent
@@ -125,6 +129,9 @@ def test_workflow_takes_up_what_is_kept_and_nothing_else(config: Path, monkeypat
             assert take_up(output, scene)
             assert read(output, scene.digest).attrs["scene"] == name
     assert not take_up(output, campaign.scene(1, 101, 0.5))
+    capsys.readouterr()
+    runpy.run_path(str(WHOLE))["main"](str(output), scene.parameters(), {})
+    assert "friction coefficient  " in capsys.readouterr().out  # as where it is solved: the log has the warnings
     monkeypatch.setattr(kept, "code", lambda module: "of another version")
     assert not take_up(output, scene)
 

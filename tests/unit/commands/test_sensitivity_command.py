@@ -54,6 +54,7 @@ def test_prints_what_python_finds_as_text_json_csv_and_picture(
         (["--range", "60%"], "--range is 0.6, but must be at most 0.3"),
         (["--pressure", "1;2"], "--pressure is '1;2', but must be numbers with commas between, 1,10,100 say"),
         (["--pressure", "1,2", "-o", "a.png"], "--output draws one speed and pressure, but 2 are given: leave one"),
+        (["--velocity", "0"], "velocity is 0 mm/s, but must be greater than 0"),
         (["--only", ""], "--only is empty, but must name numbers with commas between, E,g_1 say"),
         (["--velocity", "-3,5"], "velocity is -3 mm/s, but must be greater than 0"),
         (["--velocity", "-3"], "velocity is -3 mm/s, but must be greater than 0"),

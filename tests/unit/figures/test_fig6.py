@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
@@ -16,6 +17,7 @@ from rubfric.errors import BrokenResult, InvalidInput
 from rubfric.figures import fig6, style
 from rubfric.figures.bands import bands
 from rubfric.figures.peaks import rings
+from rubfric.results.curves import curve_table, scale_name
 
 Maker = Callable[..., xr.Dataset]
 
@@ -162,3 +164,32 @@ def test_gaps_zeros_and_single_points_are_drawn(make_campaign: Maker, tmp_path: 
     for name, campaign in {"gaps": gaps, "zeros": zeros, "single": single}.items():
         style.save(fig6.draw(campaign, 0.75), tmp_path / f"{name}.png")
     assert not any(rings(panel) for panel in fig6.draw(zeros, 0.75).axes)
+
+
+def points(campaign: xr.Dataset, scale: int) -> pd.DataFrame:
+    """Return what the table of a scale has of its curves."""
+    names = {"velocity": "velocity_mm_per_s", "pressure": "pressure_MPa"}
+    return campaign.sel(scale=scale, drop=True).to_dataframe().reset_index().rename(columns=names)
+
+
+def test_curves_with_added_speeds_are_drawn_as_they_are_known_with_their_peaks(
+    make_campaign: Maker, words: Callable[[Figure], list[str]]
+) -> None:
+    campaign, dense = make_campaign(), make_campaign(speeds=np.geomspace(0.13, 9e3, 24))
+    scales = (1, 2, 3, 4)
+    curves = curve_table(
+        {scale_name(scale): points(campaign, scale) for scale in scales},
+        {scale_name(scale): [points(dense.sel(aspect=[0.75]), scale)] for scale in scales},
+        0.75,
+    )
+    plain, found = fig6.draw(campaign, 0.75), fig6.draw(campaign, 0.75, curves=curves)
+    for coarse, fine, scale in zip(plain.axes, found.axes, (1, 2, 3, 4), strict=True):
+        before, after = coarse.get_lines()[0], fine.get_lines()[0]
+        speeds, marked = np.asarray(after.get_xdata()), after.get_markevery()
+        assert speeds[marked] == pytest.approx(before.get_xdata())
+        assert np.asarray(after.get_ydata())[marked] == pytest.approx(before.get_ydata())
+        peaks = [float(bars.lines[0].get_xdata()[0]) for bars in fine.containers]
+        assert peaks == pytest.approx([10.0 ** (4 - scale)] * 3, rel=0.05)
+        assert not rings(fine)
+    assert "Peak, with its error" in words(found)
+    assert "Sampled peak" not in words(found)

@@ -214,3 +214,20 @@ def test_what_is_absent_is_refused(make_campaign: Maker, draw: Drawer) -> None:
         InvalidInput, match=r"^the campaign has no speed at which all scales were run at pressure 5 MPa"
     ):
         draw(campaign)
+
+
+def test_added_speeds_have_a_peak_with_its_error(make_campaign: Maker, make_totals: TableMaker) -> None:
+    campaign = make_campaign()
+    dense = make_totals(make_campaign(speeds=np.geomspace(0.15, 8e3, 20)))
+    table = pd.concat([make_totals(campaign), dense], ignore_index=True)
+    (panel,) = fig7.draw(campaign, table, 0.75, 5.0, refined=True).axes
+    speeds, total = line(panel, None)
+    assert len(speeds) == 26
+    assert np.all(np.diff(speeds) > 0.0)
+    (bars,) = panel.containers
+    (at,), (friction,) = bars.lines[0].get_data()
+    low, high = bars.lines[2][0].get_segments()[0][:, 0]
+    assert low < float(speeds[np.argmax(total)]) < high
+    assert friction == pytest.approx(float(np.max(total)), rel=0.02)
+    assert low < at < high
+    assert not rings(panel)

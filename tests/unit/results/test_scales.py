@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rubfric.results.scales import scale_shares, total_error, total_friction
+from rubfric.results.scales import total_error, total_friction
 
 
 def friction(values: list[list[float]]) -> xr.DataArray:
@@ -41,15 +41,3 @@ def test_unknown_error_of_a_scale_makes_the_bound_unknown() -> None:
     total = total_error(friction([[np.nan, 0.02], [0.03, 0.005]]))
     assert np.isnan(total.values[0])
     assert total.values[1] == pytest.approx(0.025)
-
-
-def test_shares_add_up_to_one() -> None:
-    shares = scale_shares(friction([[0.1, 0.2], [0.3, 0.05], [0.0, 0.25]]))
-    assert shares.sum("scale").values == pytest.approx([1.0, 1.0])
-    assert shares.sel(velocity=1.0).values == pytest.approx([0.25, 0.75, 0.0])
-    assert shares.attrs["units"] == "1"
-
-
-def test_shares_of_nothing_or_of_the_unknown_are_unknown() -> None:
-    shares = scale_shares(friction([[0.0, 0.1, 0.1], [0.0, np.nan, -0.1]]))
-    assert np.isnan(shares.values).all()

@@ -121,3 +121,19 @@ def test_verdicts_are_counted_over_all_pressures_of_the_campaign(tmp_path: Path)
         "C2,campaign,all,holds in part\nC3,campaign,all,holds\nC1,other,all,does not hold\n"
     )
     assert verdicts(path) == "holds: 2 of 3; holds in part: 1 of 3"
+
+
+def test_largest_friction_between_speeds_is_said_where_some_were_added(tmp_path: Path) -> None:
+    row = {"curve": "whole road", "pressure_MPa": 0.1, "peak_friction": 0.3612, "peak_friction_error": 0.0179} | {
+        f"peak_speed_{name}mm_per_s": speed for name, speed in (("", 23.29), ("low_", 10.55), ("high_", 39.0))
+    }
+    lower = row | {"peak_friction": 0.3, "pressure_MPa": 0.2}
+    scale = row | {"curve": "scale 1", "peak_friction": 0.9}
+    peaks = tmp_path / "peaks.csv"
+    pd.DataFrame([lower, row, scale]).assign(added=11).to_csv(peaks, index=False)
+    assert findings([peaks]) == [
+        "largest friction of the whole road over all speeds 0.361 ± 0.02, at 23.3 mm/s (between 10.6 and 39) and "
+        "0.1 MPa"
+    ]
+    pd.DataFrame([lower, row, scale]).assign(added=0).to_csv(peaks, index=False)
+    assert findings([peaks]) == []

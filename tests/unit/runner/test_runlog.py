@@ -14,6 +14,7 @@ import pytest
 from snakemake.common import NOTHING_TO_BE_DONE_MSG
 from snakemake_interface_logger_plugins.common import LogEvent
 
+from rubfric import streams
 from rubfric.runner import runlog
 from rubfric.runner.runlog import RunLog, attach
 
@@ -232,7 +233,7 @@ def test_all_is_left_to_snakemake_where_it_is_not_to_be_quiet(tmp_path: Path, sn
 
 
 def test_lines_come_now_and_then(run: Run, snakemake: Snakemake, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runlog, "_SHORTEST", 0.01)
+    monkeypatch.setattr(streams, "_SHORTEST", 0.01)
     snakemake.send("RUN_INFO", "Job stats", stats=STATS)
     run.log.begin()
     snakemake.start(0, "a")
