@@ -9,6 +9,7 @@ from pathlib import Path
 
 import rubfric
 from rubfric.commands.areal import add_areal, slide
+from rubfric.commands.command_parser import CommandParser
 from rubfric.commands.completion import SHELLS, PrintCompletion
 from rubfric.commands.configs import add_configs, warn
 from rubfric.commands.export import add_export
@@ -90,7 +91,7 @@ def _sentence(error: Exception) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog="rubfric",
         description="Friction of viscoelastic rubber sliding on a rough road.",
         epilog=_EXAMPLE,

@@ -128,6 +128,7 @@ def test_bad_config_gives_one_sentence(tmp_path: Path, capsys: pytest.CaptureFix
         ([*SCENE, "--scale", "1.5"], "'1.5' is neither the number of a scale nor 'all'"),
         ([*SCENE, "--plane", "flat"], "invalid choice: 'flat'"),
         ([*SCENE, "--kinematics", "large"], "invalid choice: 'large'"),
+        ([*SCENE, "--aspct=1"], "rubfric simulate: error: unrecognized arguments: --aspct=1 (did you mean --aspect?)"),
         (["simulat"], "invalid choice: 'simulat'"),
     ],
 )
