@@ -194,7 +194,7 @@ def test_anything_wrong_in_any_place_of_the_shipped_config_is_refused_by_name() 
 
 
 @given(configs())
-@settings(max_examples=3)
+@settings(max_examples=2)
 def test_anything_wrong_in_any_place_of_any_config_is_refused_by_name(config: Tree) -> None:
     assert unnamed(config, Campaign.from_config) == []
 

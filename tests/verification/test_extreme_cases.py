@@ -13,7 +13,7 @@ from rubfric.studies.stability.trial import Trial, confined
 pytestmark = pytest.mark.thorough
 
 # Every so-manieth case of each panel, and of marches, which take longer.
-_EVERY = 23
+_EVERY = 31
 # Cases with a history: each of them once failed, hung, or gave a number that it should not.
 _ONCE_BROKEN = (
     # no rows of cells for a block of eight even ones

@@ -59,6 +59,7 @@ def test_two_waves_are_the_road_of_two_waves_wherever_the_profile_is_cut() -> No
         assert friction(road(profile, 4.0, 0.25)) == pytest.approx(known, rel=0.01)
 
 
+@pytest.mark.thorough
 def test_windows_of_one_stationary_road_agree_within_their_scatter() -> None:
     heights = self_affine(np.random.default_rng(7), 2**13, 0.02, 0.8, 4e-3, longest=2.0, shortest=0.2)
     profile = Profile("road", 0.0, 0.02, heights)

@@ -18,7 +18,7 @@ from rubfric.dma.result import Options
 from rubfric.results.selection import RUBBER_ERROR
 
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "config.yaml"
-RUBBERS, SAMPLES = 60, 20
+RUBBERS, SAMPLES = 36, 20
 
 
 @pytest.mark.thorough

@@ -91,7 +91,7 @@ def test_of_64_random_waves_no_number_is_wrong(slope: float, velocity: float, pr
 @pytest.mark.thorough
 @pytest.mark.parametrize(
     ("waves", "slope", "plane"),
-    [(1, 3.0, "strain"), (2, 0.3, "stress"), (8, 1.0, "strain"), (64, 0.5, "stress"), (64, 3.0, "strain")],
+    [(2, 0.3, "stress"), (8, 1.0, "strain"), (64, 3.0, "strain")],
 )
 def test_random_waves_slow_and_fast_light_and_heavy_no_number_is_wrong(waves: int, slope: float, plane: str) -> None:
     refused = 0

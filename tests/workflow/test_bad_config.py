@@ -37,7 +37,7 @@ def assert_refused(fresh: Project, done: subprocess.CompletedProcess[str], sente
         ),
         pytest.param(
             "grid: {velocity: [1]}",
-            "grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect, temperatures "
+            "grid has the unknown key 'velocity'; allowed are velocities, pressures, aspect, temperatures, refine "
             "(did you mean velocities?)",
             marks=pytest.mark.thorough,
         ),

@@ -69,7 +69,7 @@ def test_slips_and_all_faults_stop_it_before_any_job(mine: Project) -> None:
 def test_pages_are_those_of_the_grid_and_nothing_of_an_earlier_road_stays(mine: Project) -> None:
     mine.run()
     found = pages(mine.results)
-    tables = {"friction_scale_1.html", "friction_scale_2.html", "friction_total.html"}
+    tables = {"friction_scale_1.html", "friction_scale_2.html", "friction_total.html", "peaks.html"}
     assert found.keys() == {"index.html", "explorer.html", *tables}
     assert all("<title>Friction of rubber tread on road fine" in page for page in found.values())
     payload = json.loads(re.findall(r'<script id="payload".*?>(.*?)</script>', found["explorer.html"], re.DOTALL)[0])

@@ -122,14 +122,14 @@ def contact_fractions(project: Project, scale: int) -> dict[str, float]:
 
 @pytest.mark.thorough
 def test_another_rubber_has_its_own_folder_and_the_way_back_is_free(template: Project, project: Project) -> None:
-    soft = {"youngs_modulus": 1.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
-    project.configure("rubbers.soft", soft, "config/config.yaml")
-    project.configure("rubber", "soft", "config/config.yaml")
+    other = {"youngs_modulus": 8.0, "poissons_ratio": 0.4, "shear_fractions": [0.5], "relaxation_times": [1.0e-4]}
+    project.configure("rubbers.other", other, "config/config.yaml")
+    project.configure("rubber", "other", "config/config.yaml")
     project.run("tables")
     folder = project.results / "scenes"
-    assert sorted(path.name for path in folder.iterdir()) == ["soft", "zhou2019"]
+    assert sorted(path.name for path in folder.iterdir()) == ["other", "zhou2019"]
     assert set(project.scene_files) == set(template.scene_files)
-    assert project.scene_files["scale1_v1_p0.5_aspect0.75_stress"].parent == folder / "soft" / "zhou2019"
+    assert project.scene_files["scale1_v1_p0.5_aspect0.75_stress"].parent == folder / "other" / "zhou2019"
     for name in project.tables:
         friction = "friction_total" if name == "friction_total.csv" else "friction_coefficient"
         assert not np.allclose(table(project, name)[friction], table(template, name)[friction])
