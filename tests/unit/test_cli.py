@@ -61,7 +61,7 @@ def test_temperature_is_that_of_the_rubber(tmp_path: Path, capsys: pytest.Captur
     assert "rubber zhou2019 is known at one temperature only: give its shift factors" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("kinematics", ["small", "finite"])
+@pytest.mark.parametrize("kinematics", ["small", pytest.param("finite", marks=pytest.mark.thorough)])
 def test_kinematics_replaces_that_of_the_config(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], kinematics: str
 ) -> None:

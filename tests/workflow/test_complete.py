@@ -149,6 +149,7 @@ def test_second_run_does_nothing(project: Project) -> None:
     assert {path: path.stat().st_mtime_ns for path in project.results.rglob("*")} == written
 
 
+@pytest.mark.thorough
 def test_whole_campaign_from_nothing_is_planned(empty_project: Project) -> None:
     plan = empty_project.plan()
     assert plan.jobs == {

@@ -94,7 +94,10 @@ def covers(peak: CurvePeak, truth: Real) -> tuple[bool, bool]:
     return bool(height), bool(0.99 * peak.speed.low <= FINE[top] <= 1.01 * peak.speed.high)
 
 
-@pytest.mark.parametrize("accuracy", [10.0, 0.01], ids=["seven speeds", "to 1 %"])
+@pytest.mark.parametrize(
+    "accuracy",
+    [pytest.param(10.0, id="seven speeds"), pytest.param(0.01, id="to 1 %", marks=pytest.mark.thorough)],
+)
 @pytest.mark.parametrize("kind", [full_contact, partial_contact])
 def test_stated_errors_cover_the_true_ones(kind: Callable[[np.random.Generator], Known], accuracy: float) -> None:
     within, peaks, halves = [], [], []
@@ -114,6 +117,7 @@ def test_stated_errors_cover_the_true_ones(kind: Callable[[np.random.Generator],
     assert len(halves) > COUNT // 2
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", [full_contact, partial_contact])
 def test_added_speeds_make_curves_as_accurate_as_asked(
     kind: Callable[[np.random.Generator], Known],
