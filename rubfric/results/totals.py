@@ -28,7 +28,7 @@ from rubfric.results.temperature import at_temperature
 from rubfric.results.whole_road import WholeRoad
 
 # What the note says where the whole road would take minutes in finite strain.
-_DEAR = "many fine waves are in contact, and all scales at once would take minutes; multiscale: direct solves them"
+_DEAR = "many fine waves are in contact, and all scales at once would take minutes; multiscale: direct tries them"
 # What the note says of a direct total over several roads, and of one without random phases.
 DRAWN = "roads with random phases"
 ONE_ROAD = "one road with these phases"
