@@ -38,7 +38,7 @@ def run(script, log, **arguments):
     outputs = arguments.get("outputs")
     if isinstance(outputs, dict):
         outputs = outputs.values()
-    names = ("output", "mark", "page", "points", "rejected")
+    names = ("output", "mark", "page", "points", "rejected", "curves", "peaks")
     for path in outputs or [arguments[name] for name in names if name in arguments]:
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).touch()
