@@ -77,7 +77,7 @@ clean:
 	rm -rf results .snakemake
 
 distclean: clean
-	rm -rf $(VENV) build docs/gallery docs/tutorials *.egg-info .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) build docs/gallery docs/tutorials examples/*/results *.egg-info .pytest_cache .mypy_cache .ruff_cache
 
 $(VENV)/.ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "rubfric needs Python 3.11 or later; this is %s. Set PYTHON=..." % sys.version.split()[0])'
