@@ -10,14 +10,13 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
 from rubfric.checks import written
 from rubfric.errors import InvalidInput, NotConverged
 from rubfric.results.campaign import collect
 from rubfric.results.curves import curve_of
 from rubfric.results.dataset import write
-from rubfric.results.draws import over_draws
+from rubfric.results.draws import mean_road
 from rubfric.results.kept import fits, path_of
 from rubfric.results.limits import MOST
 from rubfric.results.provenance import refusal
@@ -65,18 +64,12 @@ class Sliding:
         if self.road is None:
             return scale_table(found, int(scene.scale))
         roads = {draw: collect(paths, paths.values()) for draw, paths in whole.items()}
-        return total_tables(found, _mean(roads), {scene.temperature: self.road})
+        return total_tables(found, mean_road(roads), {scene.temperature: self.road})
 
     def needed(self, speed: float) -> str:
         """Return by which way the whole road is found at a speed (mm/s): "direct" where its own scenes are solved."""
         road = self.road
         return road.cheapest(speed, self.scales[0].pressure) if road and road.way == "auto" else "direct"
-
-
-def _mean(roads: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
-    if not roads:
-        return None
-    return roads[""] if "" in roads else over_draws([*roads.values()], windows="window1/" in roads)
 
 
 def added_points(

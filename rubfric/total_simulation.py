@@ -21,7 +21,7 @@ from rubfric.errors import BrokenResult
 from rubfric.results import answer, kept
 from rubfric.results.campaign import COLLECTED, collect
 from rubfric.results.dataset import load, write
-from rubfric.results.draws import over_draws
+from rubfric.results.draws import mean_road
 from rubfric.results.provenance import CONVENTIONS, PAPER, SOFTWARE, SOLVER
 from rubfric.results.temperature import MATERIALS
 from rubfric.results.totals import total_tables
@@ -210,9 +210,8 @@ def _solved(
     for draw in campaign.whole_roads:
         own = {found[job]: job.scene.digest for job in jobs if job.kind == WHOLE and job.name == draw + job.scene.name}
         drawn[draw] = collect(own, own.values())
-    mean = drawn[""] if "" in drawn else over_draws([*drawn.values()], "window1/" in drawn) if drawn else None
     about = {name: collected.attrs[name] for name in _SHARED if name in collected.attrs}
-    return answer.dataset(total_tables(collected, mean, roads), collected, _about(campaign) | about)
+    return answer.dataset(total_tables(collected, mean_road(drawn), roads), collected, _about(campaign) | about)
 
 
 def _about(campaign: Campaign) -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -14,6 +14,19 @@ from rubfric.results.scalars import attributes
 from rubfric.results.selection import DRAWS, REFUSALS, ROAD_ERROR, WARNINGS, WINDOWS, refusals
 
 _FRICTION = "friction_coefficient"
+
+
+def mean_road(roads: Mapping[str, xr.Dataset]) -> xr.Dataset | None:
+    """Return what is known of the whole road: its own scalars, or the means over its draws or windows.
+
+    Parameters
+    ----------
+    roads : mapping of str to xarray.Dataset
+        As for ``over_draws``, by the name of the draw or window, which is empty for one road; may be empty.
+    """
+    if not roads:
+        return None
+    return roads[""] if "" in roads else over_draws([*roads.values()], windows="window1/" in roads)
 
 
 def over_draws(collected: Sequence[xr.Dataset], windows: bool = False) -> xr.Dataset:

@@ -3,7 +3,7 @@
 from rubfric.files import mark as leave
 from rubfric.results.campaign import collect
 from rubfric.results.dataset import write
-from rubfric.results.draws import over_draws
+from rubfric.results.draws import mean_road
 
 
 def main(output: str, scenes: dict[str, dict[str, str]], mark: str) -> None:
@@ -20,5 +20,5 @@ def main(output: str, scenes: dict[str, dict[str, str]], mark: str) -> None:
         Path of an empty file whose name represents these digests; it takes the place of such files beside it.
     """
     roads = {draw: collect(paths, paths.values()) for draw, paths in scenes.items()}
-    write(roads[""] if "" in roads else over_draws(list(roads.values()), windows="window1/" in roads), output)
+    write(mean_road(roads), output)
     leave(mark)

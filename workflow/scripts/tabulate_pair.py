@@ -3,7 +3,7 @@
 from typing import Any
 
 from rubfric.results.campaign import collect
-from rubfric.results.draws import over_draws
+from rubfric.results.draws import mean_road
 from rubfric.results.pair import COLLECTED, road_by_road
 from rubfric.results.tables import write_table
 from rubfric.results.totals import total_tables
@@ -34,7 +34,6 @@ def main(
     """
     about = {one: WholeRoad.from_parameters(road) for one, road in roads.items()}
     found = {draw: collect(paths, paths.values()) for draw, paths in whole.items()}
-    mean = found[""] if "" in found else over_draws([*found.values()], "window1/" in found) if found else None
-    table = total_tables(collect(scenes, scenes.values()), mean, about)
+    table = total_tables(collect(scenes, scenes.values()), mean_road(found), about)
     several = [] if "" in found else [*found.values()]
     write_table(road_by_road(table, several).assign(**{COLLECTED: collected}), output)
